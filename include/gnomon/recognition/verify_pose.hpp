@@ -58,7 +58,7 @@ template <normal_range Surface>
     gnomon::detail::require(static_cast<std::size_t>(std::ranges::size(surface)) == index.size(),
                             "verify_pose: points and normals differ in number");
     return detail::pose_verifier(index, seen, model, pose, options)(
-        [&](point_index i) -> Eigen::Vector3d { return surface[i].normal; });
+        [&](point_index i) -> Eigen::Vector3d { return surface[i].normal; }, detail::all_points);
 }
 
 /// Verifies an object at a pose in a scan without normals. Parameters, result and errors are as
@@ -67,7 +67,7 @@ template <normal_range Surface>
                                               const surface_model& model, const rigid_motion& pose,
                                               const verification_options& options = {}) {
     return detail::pose_verifier(index, seen, model, pose, options)(
-        [](point_index) { return Eigen::Vector3d(0.0, 0.0, 0.0); });
+        [](point_index) { return Eigen::Vector3d(0.0, 0.0, 0.0); }, detail::all_points);
 }
 
 }  // namespace gnomon::recognition

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Hypotheses, objects at places, against a scan: their alignment, verification and probability,
-/// and their competition for points.
+/// Hypotheses, objects at places, against a scan: their alignment, verification and probability.
 #pragma once
 
 #include <algorithm>
@@ -29,28 +28,69 @@
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/pose_search.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/recognition/detail/part_place.hpp>
+#include <gnomon/recognition/detail/points_in_bounds.hpp>
+#include <gnomon/recognition/detail/pose_verifier.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_votes.hpp>
 #include <gnomon/recognition/posterior.hpp>
 #include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/verification.hpp>
 #include <gnomon/recognition/verify_pose.hpp>
 
 namespace gnomon::recognition::detail {
+
+/// The probability of a hypothesis by its evidence: a logistic regression.
+[[nodiscard]] inline double probability_of(const found_object& o) {
+    const verification& v = o.evidence;
+    const std::size_t through = v.seen_through + v.supported;
+    constexpr double no_votes = 0.05;  // numerical: its logarithm is finite
+    const std::array<double, 7> variables{
+        v.support(),
+        through == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(through),
+        v.explanation(),
+        v.observed(),
+        v.containment(),
+        std::log(no_votes + o.votes),
+        o.log_recognized};
+    // Log odds per variable, and without any. Chosen: fitted to what remains after competition
+    // in furnished_room() with clutter, seeds 1 to 60, and with touching furniture, 1 to 10 and 31
+    // to 60.
+    constexpr std::array<double, 7> weights{4.1, -4.1, 2.1, 2.7, 13.4, 0.75, 0.92};
+    constexpr double intercept = -17.7;
+    double log_odds = intercept;
+    for (std::size_t i = 0; i < variables.size(); ++i) log_odds += weights[i] * variables[i];
+    return 1.0 / (1.0 + std::exp(-log_odds));
+}
 
 /// The cells of a scan that may be of objects, and what the sensor saw elsewhere.
 class scene_evidence {
   public:
     scene_evidence(const voxel_grid::means& cells, visibility seen, const noise_curve& noise,
-                   const auto& run)
+                   const plane& ground, const auto& run)
         : cells_(cells),
           index_(cells, run),
           surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
           seen_(std::move(seen)),
-          noise_(noise) {}
+          noise_(noise),
+          ground_(ground) {}
 
-    /// A hypothesis, aligned from the place that was voted for.
+    /// Places at which objects may stand, whatever their parts vote for.
+    [[nodiscard]] std::vector<object_place> places(std::span<const surface_model> surfaces,
+                                                   const auto& run) const {
+        const rigid_motion frame = ground_motion(ground_, cells_.points.front());
+        std::vector<ground_cell> cells;
+        cells.reserve(cells_.size());
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            cells.push_back({frame.point_in(cells_.points[i]),
+                             std::abs(frame.direction_in(surface_[i].normal).z())});
+        return search_poses(cells, frame, seen_, surfaces, run);
+    }
+
+    /// A hypothesis, aligned from a place.
     [[nodiscard]] found_object hypothesis(const object_place& place,
                                           const surface_model& model) const {
         found_object result;
@@ -82,14 +122,13 @@ class scene_evidence {
     /// Corrects the probability of a hypothesis after the points on its surface were recognized;
     /// without parts all names are as probable.
     void recognize(found_object& h, const surface_model& model,
-                   const object_recognizer<>& recognizer, const std::string& name,
-                   const plane& ground) const {
+                   const object_recognizer<>& recognizer, const std::string& name) const {
         if (h.probability < worth) return;
         constexpr double least = -6.0;  // chosen: 0.25 %, less than one of 200 trees
         const auto on = cells_on(model, h.aligned.pose);
         const auto seen = perceive_views(
             subset_view(cells_, on),
-            {.ground = ground, .noise = noise_, .gap = infinite_gap, .min_points = fewest});
+            {.ground = ground_, .noise = noise_, .gap = infinite_gap, .min_points = fewest});
         h.log_recognized = -std::log(static_cast<double>(recognizer.classes()));
         if (!seen.views.empty()) {
             const auto& names = recognizer.names();
@@ -103,29 +142,40 @@ class scene_evidence {
         h.probability = probability_of(h);
     }
 
-    /// The most probable hypotheses, of which each explains points of its own.
-    /// @param of_cell  gets the numbers of the winners whose surface the cells are on
-    [[nodiscard]] std::vector<found_object> winners(std::vector<found_object> hypotheses,
-                                                    std::span<const surface_model> surfaces,
-                                                    double min_probability,
-                                                    std::vector<std::int32_t>& of_cell) const {
-        constexpr double own_share = 0.5;  // chosen before any room was seen: the larger part
-        std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
-        std::vector<found_object> found;
-        for (found_object& h : hypotheses) {
-            if (h.probability < min_probability || h.evidence.explained == 0) break;
-            const auto explained = cells_on(surfaces[h.object], h.aligned.pose);
-            const auto own = static_cast<std::size_t>(std::ranges::count_if(
-                explained, [&](point_index c) { return of_cell[c] == unlabeled; }));
-            if (static_cast<double>(own) < own_share * static_cast<double>(explained.size()) ||
-                own == 0)
-                continue;
-            for (const point_index c : explained)
-                if (of_cell[c] == unlabeled) of_cell[c] = static_cast<std::int32_t>(found.size());
-            found.push_back(std::move(h));
-        }
-        return found;
+    /// Corrects the probability of a hypothesis after other objects have taken cells.
+    /// @param is_left  (i): whether cell i is of no object
+    void leave(found_object& h, const surface_model& model, const auto& is_left) const {
+        const verification_options how{.noise = noise_};
+        pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
+        verifier.count_points(is_left);
+        const verification& left = verifier.counts();
+        h.evidence.points = left.points;
+        h.evidence.explained = left.explained;
+        h.evidence.near_surface = left.near_surface;
+        h.evidence.on_surface = left.on_surface;
+        h.probability = probability_of(h);
     }
+
+    /// The cells on the surface of an object.
+    [[nodiscard]] std::vector<point_index> cells_on(const surface_model& model,
+                                                    const rigid_motion& pose) const {
+        constexpr double margin = 0.03;  // [m]; chosen: spacing of samples, and noise
+        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
+        Eigen::Vector3d low = model.low() - around;
+        low.z() = std::max(low.z(), lowest);
+        std::vector<point_index> on;
+        std::vector<neighbor> nearest;
+        for_each_point_in(index_, pose, low, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d& x) {
+                              model.points().nearest_within_into(nearest, x, 1, margin);
+                              if (!nearest.empty()) on.push_back(i);
+                          });
+        std::ranges::sort(on);
+        return on;
+    }
+
+    /// The number of all cells.
+    [[nodiscard]] std::size_t size() const { return cells_.size(); }
 
   private:
     /// The same hypothesis, aligned from a pose.
@@ -136,10 +186,10 @@ class scene_evidence {
         hypothesis.aligned = {};
         hypothesis.evidence = {};
         hypothesis.probability = 0.0;
+        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
         std::vector<point_index> inside;
-        for (std::size_t i = 0; i < cells_.size(); ++i)
-            if (is_within(model, start.point_in(cells_.points[i]), margin))
-                inside.push_back(static_cast<point_index>(i));
+        for_each_point_in(index_, start, model.low() - around, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
         if (inside.size() < fewest) return hypothesis;
         const std::size_t n = std::min(inside.size(), most);
         std::vector<point_index> some(n);
@@ -162,56 +212,12 @@ class scene_evidence {
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
     static constexpr double lowest = 0.05;        // [m]; as in verifications
 
-    [[nodiscard]] static bool is_within(const surface_model& model, const Eigen::Vector3d& x,
-                                        double margin) {
-        for (int a = 0; a < 3; ++a)
-            if (!(model.low()[a] - margin <= x[a] && x[a] <= model.high()[a] + margin))
-                return false;
-        return true;
-    }
-
-    /// The cells on the surface of an object.
-    [[nodiscard]] std::vector<point_index> cells_on(const surface_model& model,
-                                                    const rigid_motion& pose) const {
-        constexpr double margin = 0.03;  // [m]; chosen: spacing of samples, and noise
-        std::vector<point_index> on;
-        std::vector<neighbor> nearest;
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const Eigen::Vector3d x = pose.point_in(cells_.points[i]);
-            if (x.z() < lowest || !is_within(model, x, margin)) continue;
-            model.points().nearest_within_into(nearest, x, 1, margin);
-            if (!nearest.empty()) on.push_back(static_cast<point_index>(i));
-        }
-        return on;
-    }
-
-    /// The probability of a hypothesis by its evidence: a logistic regression.
-    [[nodiscard]] static double probability_of(const found_object& o) {
-        const verification& v = o.evidence;
-        const std::size_t through = v.seen_through + v.supported;
-        constexpr double no_votes = 0.05;  // numerical: its logarithm is finite
-        const std::array<double, 7> variables{
-            v.support(),
-            through == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(through),
-            v.explanation(),
-            v.observed(),
-            std::log1p(static_cast<double>(v.explained)),
-            std::log(no_votes + o.votes),
-            o.log_recognized};
-        // Log odds per variable, and without any. Chosen: fitted to what remains after competition
-        // in furnished_room() with clutter, seeds 1 to 24, and with touching furniture, 31 to 54.
-        constexpr std::array<double, 7> weights{3.8, -8.4, 6.0, 4.9, 0.8, 2.0, 1.75};
-        constexpr double intercept = -14.9;
-        double log_odds = intercept;
-        for (std::size_t i = 0; i < variables.size(); ++i) log_odds += weights[i] * variables[i];
-        return 1.0 / (1.0 + std::exp(-log_odds));
-    }
-
     const voxel_grid::means& cells_;
     spatial_index index_;
     std::vector<surfel<plane_fit>> surface_;
     visibility seen_;
     noise_curve noise_;
+    plane ground_;
 };
 
 }  // namespace gnomon::recognition::detail

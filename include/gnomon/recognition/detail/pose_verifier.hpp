@@ -17,17 +17,19 @@
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/rigid_motion.hpp>
-#include <gnomon/neighborhoods/detail/leaf_box.hpp>
-#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/recognition/detail/points_in_bounds.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/verification.hpp>
 
 namespace gnomon::recognition::detail {
+
+/// All points are to be explained.
+inline constexpr auto all_points = [](point_index) { return true; };
 
 /// Compares one object at one pose with one scan.
 class pose_verifier {
@@ -48,7 +50,8 @@ class pose_verifier {
     }
 
     /// @param normal_of  (i): the normal of point i of the scan; zero if it is missing
-    [[nodiscard]] verification operator()(const auto& normal_of) {
+    /// @param is_left   (i): whether point i is to be explained
+    [[nodiscard]] verification operator()(const auto& normal_of, const auto& is_left) {
         const std::size_t n = model_.points().size();
         const std::size_t tested = std::min(n, options_.most);
         counts_.samples = tested;
@@ -57,9 +60,18 @@ class pose_verifier {
             count_sample(pose_.point_out(model_.points()[i]),
                          pose_.direction_out(model_.normals()[i].normal), normal_of);
         }
-        if (n > 0 && index_.finite() > 0) count_points();
+        count_points(is_left);
         return counts_;
     }
+
+    /// Counts the points within the bounds of the object, and near its surface, again.
+    /// @param is_left  (i): whether point i is to be explained
+    void count_points(const auto& is_left) {
+        counts_.points = counts_.explained = counts_.near_surface = counts_.on_surface = 0;
+        if (model_.points().size() > 0) count_left(is_left);
+    }
+
+    [[nodiscard]] const verification& counts() const { return counts_; }
 
   private:
     static constexpr double deviations = 3.0;  // of the noise: 99.7 % of a normal distribution
@@ -138,57 +150,38 @@ class pose_verifier {
         return is_free ? observation::free_space : observation::occluded;
     }
 
-    /// Counts the points within the bounds of the object.
-    void count_points() {
-        const Eigen::Vector3d margin = Eigen::Vector3d::Constant(options_.tolerance);
-        Eigen::Vector3d low = model_.low() - margin, high = model_.high() + margin;
-        low.z() = std::max(low.z(), options_.lowest);
-        if (!(low.z() <= high.z())) return;
-        std::vector<Eigen::Vector3d>& inside = inside_;
-        inside.clear();
-        const auto& tree = index_.tree();
-        tree.for_each_leaf_near(box_around(low, high), 0.0, [&](std::size_t leaf, const auto&) {
-            const std::size_t begin = leaf * gnomon::detail::leaf_tree::leaf_size;
-            const std::size_t end =
-                std::min(begin + gnomon::detail::leaf_tree::leaf_size, tree.size());
-            for (std::size_t place = begin; place < end; ++place) {
-                const auto p = tree.position(place);
-                const Eigen::Vector3d x = pose_.point_in({p[0], p[1], p[2]});
-                bool is_inside = true;
-                for (int a = 0; a < 3; ++a)
-                    is_inside = is_inside && low[a] <= x[a] && x[a] <= high[a];
-                if (is_inside) inside.push_back(x);
-            }
-        });
+    void count_left(const auto& is_left) {
+        using gnomon::detail::combined;
         const Eigen::Vector3d from = images_.empty() ? pose_.position : images_.front().viewpoint();
-        const double noise =
-            deviations * options_.noise.along(gnomon::detail::difference(
-                             pose_.point_out(gnomon::detail::scaled(
-                                 0.5, gnomon::detail::combined(1.0, low, 1.0, high))),
-                             from));
+        const Eigen::Vector3d middle = combined(0.5, model_.low(), 0.5, model_.high());
+        const double noise = deviations * options_.noise.along(gnomon::detail::difference(
+                                              pose_.point_out(middle), from));
         const double reach = model_.spacing() + options_.tolerance + noise;
-        counts_.points = std::min(inside.size(), options_.most);
-        for (std::size_t k = 0; k < counts_.points; ++k) {
-            const Eigen::Vector3d& x = inside[k * inside.size() / counts_.points];
-            model_.points().nearest_within_into(found_, x, 1, reach);
-            counts_.explained += found_.empty() ? 0 : 1;
+        const double around = reach + options_.around;
+        Eigen::Vector3d low = model_.low() - Eigen::Vector3d::Constant(around);
+        low.z() = std::max(low.z(), options_.lowest);
+        inside_.clear();
+        for_each_point_in(index_, pose_, low, model_.high() + Eigen::Vector3d::Constant(around),
+                          [&](point_index i, const Eigen::Vector3d& x) {
+                              if (is_left(i)) inside_.push_back(x);
+                          });
+        const std::size_t tested = std::min(inside_.size(), options_.most);
+        for (std::size_t k = 0; k < tested; ++k) {
+            const Eigen::Vector3d& x = inside_[k * inside_.size() / tested];
+            model_.points().nearest_within_into(found_, x, 1, around);
+            const bool is_on = !found_.empty() && found_.front().squared_distance <= reach * reach;
+            counts_.near_surface += found_.empty() ? 0 : 1;
+            counts_.on_surface += is_on ? 1 : 0;
+            if (!is_in_bounds(x)) continue;
+            ++counts_.points;
+            counts_.explained += is_on ? 1 : 0;
         }
     }
 
-    /// The box of the scan's frame around a box of the object's frame.
-    [[nodiscard]] gnomon::detail::leaf_box box_around(const Eigen::Vector3d& low,
-                                                      const Eigen::Vector3d& high) const {
-        gnomon::detail::leaf_box box{};
-        for (int i = 0; i < 3; ++i) {
-            double middle = pose_.position[i], reach = 0.0;
-            for (int j = 0; j < 3; ++j) {
-                middle += pose_.rotation(i, j) * 0.5 * (low[j] + high[j]);
-                reach += std::abs(pose_.rotation(i, j)) * 0.5 * (high[j] - low[j]);
-            }
-            box.low[static_cast<std::size_t>(i)] = middle - reach;
-            box.high[static_cast<std::size_t>(i)] = middle + reach;
-        }
-        return box;
+    [[nodiscard]] bool is_in_bounds(const Eigen::Vector3d& x) const {
+        const double margin = options_.tolerance;
+        return (model_.low().array() - margin <= x.array()).all() &&
+               (x.array() <= model_.high().array() + margin).all();
     }
 
     const spatial_index& index_;

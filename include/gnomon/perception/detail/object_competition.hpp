@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Hypotheses compete for the cells of a scan: each object that is found explains cells of its own.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/point.hpp>
+#include <gnomon/perception/detail/object_hypotheses.hpp>
+#include <gnomon/perception/found_object.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::recognition::detail {
+
+/// The most probable hypotheses, of which each explains cells of its own.
+///
+/// Round by round: what is found in one takes its cells, which no longer count against the others
+/// in the next, as those of a chair do against the table above its seat.
+/// @param of_cell  gets the numbers of the winners whose surface the cells are on
+/// @return the most probable one first
+[[nodiscard]] inline std::vector<found_object> winners_of(std::vector<found_object> hypotheses,
+                                                          const scene_evidence& scene,
+                                                          std::span<const surface_model> surfaces,
+                                                          double min_probability,
+                                                          std::vector<std::int32_t>& of_cell) {
+    constexpr double own_share = 0.5;  // chosen before any room was seen: the larger part
+    const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
+    of_cell.assign(scene.size(), unlabeled);
+    std::vector<found_object> found;
+    for (bool has_won = true; has_won;) {
+        has_won = false;
+        std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
+        std::vector<found_object> others;
+        for (found_object& h : hypotheses) {
+            if (h.evidence.explained == 0) continue;
+            if (h.probability < min_probability) {
+                others.push_back(std::move(h));
+                continue;
+            }
+            const auto on = scene.cells_on(surfaces[h.object], h.aligned.pose);
+            const auto own = static_cast<std::size_t>(std::ranges::count_if(on, is_left));
+            if (static_cast<double>(own) < own_share * static_cast<double>(on.size()) || own == 0)
+                continue;
+            for (const point_index c : on)
+                if (is_left(c)) of_cell[c] = static_cast<std::int32_t>(found.size());
+            found.push_back(std::move(h));
+            has_won = true;
+        }
+        hypotheses = std::move(others);
+        if (has_won)
+            for (found_object& h : hypotheses) scene.leave(h, surfaces[h.object], is_left);
+    }
+    // The most probable one first, also of those that were found in other rounds.
+    std::vector<std::size_t> order(found.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater{},
+                             [&](std::size_t i) { return found[i].probability; });
+    std::vector<found_object> sorted;
+    std::vector<std::int32_t> place(found.size());
+    for (const std::size_t i : order) {
+        place[i] = static_cast<std::int32_t>(sorted.size());
+        sorted.push_back(std::move(found[i]));
+    }
+    for (std::int32_t& label : of_cell)
+        if (label != unlabeled) label = place[static_cast<std::size_t>(label)];
+    return sorted;
+}
+
+}  // namespace gnomon::recognition::detail

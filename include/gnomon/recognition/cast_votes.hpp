@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Votes for places of objects, and the places at which most of them agree: the result of
+/// `part_votes`.
+///
+/// In no umbrella: include it by name.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/recognition/detail/part_place.hpp>
+
+namespace gnomon::recognition {
+
+/// A place at which an object may stand.
+struct object_place {
+    std::size_t object = 0;  ///< its number
+    rigid_motion pose;       ///< of the object's frame in that of the scan
+    double votes = 0.0;      ///< the sum of the votes, at most one of each part
+};
+
+/// How parts vote; chosen on furnished_room() with clutter, seeds 1 to 12.
+struct part_votes_options {
+    std::size_t nearest = 10;    ///< learned parts of each object by which a part votes
+    double likeness = 0.3;       ///< standard deviation of the distance of features of one part
+    double max_distance = 0.9;   ///< of features; parts that differ more do not vote
+    double reach = 0.10;         ///< standard deviation of the place of a vote [m]
+    angle turn = degrees(15.0);  ///< that of its heading
+    double min_votes = 0.3;      ///< of a place
+    std::size_t most = 12;       ///< places of an object, those of most votes
+
+    /// @throws std::invalid_argument  unless all are positive and finite, and max_distance and
+    ///                                min_votes not negative
+    void require_valid() const {
+        using gnomon::detail::require;
+        require(nearest > 0 && most > 0, "part_votes: requires a part and a place");
+        for (const double x : {likeness, reach, turn.radians()})
+            require(x > 0.0 && std::isfinite(x), "part_votes: deviations must be positive");
+        require(max_distance >= 0.0 && min_votes >= 0.0,
+                "part_votes: max_distance and min_votes must not be negative or NaN");
+    }
+};
+
+/// Votes of parts, on the ground below the first of them.
+class cast_votes {
+  public:
+    /// None, for objects with numbers below `objects`.
+    cast_votes(const part_votes_options& options, std::size_t objects)
+        : options_(options), votes_(objects) {}
+
+    /// Votes that follow are of a further part.
+    /// @return the frame of the ground, in which places are
+    const rigid_motion& begin_part(const plane& ground, const Eigen::Vector3d& centroid) {
+        if (parts_ == 0) ground_ = detail::ground_motion(ground, centroid);
+        ++parts_;
+        return ground_;
+    }
+
+    /// A vote of the part that was begun.
+    /// @param object   its number, below that of the constructor
+    /// @param x, y     of the object's frame on the ground [m]
+    /// @param heading  of the object [rad]
+    void add(std::size_t object, double x, double y, double heading, double weight) {
+        votes_[object].push_back({x, y, heading, weight, parts_ - 1});
+    }
+
+    /// The sum of the votes for an object at a pose in the scan, at most one of each part; 0 for an
+    /// object without votes. O(v) for v votes.
+    [[nodiscard]] double at(std::size_t object, const rigid_motion& pose) const {
+        if (object >= votes_.size()) return 0.0;
+        const Eigen::Vector3d place = ground_.point_in(pose.position);
+        const Eigen::Vector3d ahead =
+            ground_.direction_in(gnomon::detail::column(pose.rotation, 0));
+        return sum_at(object, {place.x(), place.y(), std::atan2(ahead.y(), ahead.x()), 0.0, 0});
+    }
+
+    /// The places at which most votes agree.
+    /// @return of each object those of most votes first
+    [[nodiscard]] std::vector<object_place> places() const {
+        std::vector<object_place> places;
+        for (std::size_t o = 0; o < votes_.size(); ++o) maxima_of(o, places);
+        return places;
+    }
+
+  private:
+    struct vote {
+        double x, y, heading, weight;
+        std::uint32_t part;
+    };
+
+    /// The sum of the votes for a place, at most one of each part, whose votes are consecutive.
+    [[nodiscard]] double sum_at(std::size_t object, const vote& place) const {
+        double sum = 0.0, of_part = 0.0;
+        std::uint32_t part = 0;
+        for (const vote& v : votes_[object]) {
+            if (v.part != part) {
+                sum += std::min(of_part, 1.0);
+                of_part = 0.0;
+                part = v.part;
+            }
+            of_part += v.weight * agreement(place, v);
+        }
+        return sum + std::min(of_part, 1.0);
+    }
+
+    /// How much two votes agree, from 0 to 1.
+    [[nodiscard]] double agreement(const vote& a, const vote& b) const {
+        const double reach = options_.reach, turn = options_.turn.radians();
+        const double dx = (a.x - b.x) / reach, dy = (a.y - b.y) / reach;
+        const double across = dx * dx + dy * dy;
+        constexpr double most = 9.0;  // performance only: three deviations
+        if (across > most) return 0.0;
+        const double dh = std::remainder(a.heading - b.heading, 2.0 * std::numbers::pi) / turn;
+        const double sum = across + dh * dh;
+        return sum > most ? 0.0 : std::exp(-0.5 * sum);
+    }
+
+    /// Adds the places at which most votes agree.
+    void maxima_of(std::size_t object, std::vector<object_place>& places) const {
+        const std::vector<vote>& votes = votes_[object];
+        std::vector<std::pair<double, std::size_t>> sums;
+        for (std::size_t i = 0; i < votes.size(); ++i)
+            sums.emplace_back(-sum_at(object, votes[i]), i);
+        std::ranges::sort(sums);
+        std::vector<std::size_t> taken;
+        for (const auto& of_vote : sums) {
+            const double sum = of_vote.first;
+            const std::size_t i = of_vote.second;  // clang 14 captures no binding
+            if (-sum < options_.min_votes || taken.size() == options_.most) break;
+            constexpr double same = 0.1;  // chosen: two deviations
+            if (std::ranges::any_of(
+                    taken, [&](std::size_t j) { return agreement(votes[i], votes[j]) > same; }))
+                continue;
+            taken.push_back(i);
+            places.push_back({object,
+                              ground_ * rigid_motion::on_ground(votes[i].x, votes[i].y,
+                                                                radians(votes[i].heading)),
+                              -sum});
+        }
+    }
+
+    part_votes_options options_;
+    std::vector<std::vector<vote>> votes_;  // of each object
+    rigid_motion ground_;
+    std::uint32_t parts_ = 0;
+};
+
+}  // namespace gnomon::recognition
