@@ -223,6 +223,7 @@ TEST(json_model, numbers_that_contradict_each_other_are_refused) {
     const std::vector<std::pair<const char*, file_json>> changes{
         {"/temperature", 0.0},
         {"/temperature", -1.0},
+        {"/temperature", 1e-310},
         {"/options/trees/trees", 0},
         {"/options/trees/trees", 4'000'000'000u},
         {"/options/trees/seed", 1.5},
@@ -231,12 +232,22 @@ TEST(json_model, numbers_that_contradict_each_other_are_refused) {
         {"/scales/mean height", 0.0},
         {"/scales/mean height", "0.1"},
         {"/weights/mean height", -1.0},
+        {"/weights",
+         {{"mean height", 0},
+          {"inclination", 0},
+          {"longest edge", 0},
+          {"middle edge", 0},
+          {"shortest edge", 0},
+          {"surface variation", 0},
+          {"lowest height", 0},
+          {"highest height", 0}}},
         {"/bins/angle", -1.0},
         {"/are_folded/angle", 1},
         {"/classes", {"one"}},
         {"/classes/0", ""},
         {"/classes/0", "background"},
         {"/words/0/count", 0},
+        {"/words/0/count", 18'446'744'073'709'551'615u},
         {"/words/0/mean/0", 1e200},
         {"/words/0/mean", {1.0, 2.0}},
         {"/words/0/scatter/0/0", 1e300},
@@ -244,6 +255,7 @@ TEST(json_model, numbers_that_contradict_each_other_are_refused) {
         {"/sources/0", 1'000'000},
         {"/sources/0", 5'000'000'000u},
         {"/sources", {0}},
+        {"/sources/71", 4'294'967'295u},
         {"/samples/columns", 3},
         {"/samples/classes/0", 3},
         {"/samples/classes", file_json::array()},
@@ -253,6 +265,14 @@ TEST(json_model, numbers_that_contradict_each_other_are_refused) {
     for (const auto& [place, value] : changes)
         EXPECT_NE(refusal([&](file_json& f) { f[file_json::json_pointer(place)] = value; }), "")
             << place << " " << value;
+}
+
+TEST(json_model, one_class_is_refused_with_its_place) {
+    EXPECT_EQ(refusal([](file_json& f) {
+                  f["classes"] = {"one"};
+                  for (auto& number : f["samples"]["classes"]) number = 0;
+              }),
+              "m.json, classes: must be two or more");
 }
 
 TEST(json_model, broken_files_are_refused_with_their_place) {

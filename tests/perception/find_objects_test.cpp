@@ -172,6 +172,7 @@ TEST(find_objects, refuses_bad_arguments) {
     finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {},
                  0);  // not fitted any more
     EXPECT_THROW(static_cast<void>(finder(small_room().scan)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(finder(gnomon::scan{})), std::invalid_argument);
     gnomon::rigid_motion skewed;
     skewed.rotation(0, 1) = 0.5;
     EXPECT_THROW(finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, skewed, 0),
@@ -179,6 +180,8 @@ TEST(find_objects, refuses_bad_arguments) {
     finder = rec::object_finder();
     EXPECT_THROW(finder.add("nothing", {}), std::invalid_argument);
     EXPECT_THROW(finder.add("", finder_of_two().surfaces()[0]), std::invalid_argument);
+    EXPECT_THROW(finder.add(std::string(rec::background_name), finder_of_two().surfaces()[0]),
+                 std::invalid_argument);
     EXPECT_THROW(finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {}, 0),
                  std::invalid_argument);
     for (const double p : {-0.1, 1.1, nan})

@@ -85,6 +85,20 @@ TEST(fit_temperature, is_one_without_views) {
     EXPECT_DOUBLE_EQ(rec::fit_temperature(empty, std::vector<std::uint32_t>{0, 1, 0}), 1.0);
 }
 
+TEST(fit_temperature, refuses_what_is_not_a_number) {
+    const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
+    const std::vector<std::uint32_t> first{0};
+    const auto temperature = [&](double a, double b) {
+        const std::vector<std::vector<double>> log_likelihoods{{a, b}};
+        return rec::fit_temperature(log_likelihoods, first);
+    };
+    EXPECT_THROW((void)temperature(nan, 0.0), std::invalid_argument);
+    EXPECT_THROW((void)temperature(0.0, nan), std::invalid_argument);
+    EXPECT_THROW((void)temperature(0.0, infinity), std::invalid_argument);
+    EXPECT_THROW((void)temperature(-infinity, -infinity), std::invalid_argument);
+    EXPECT_GT(temperature(0.0, -infinity), 0.0);  // an excluded class
+}
+
 TEST(fit_temperature, refuses_what_does_not_fit) {
     const std::vector<std::vector<double>> l{{0.0, 1.0}, {1.0, 0.0}};
     EXPECT_THROW((void)rec::fit_temperature(l, std::vector<std::uint32_t>{0}),
@@ -119,6 +133,9 @@ TEST(expected_calibration_error, is_small_where_probabilities_are_right) {
 TEST(expected_calibration_error, refuses_what_does_not_fit) {
     EXPECT_THROW((void)rec::expected_calibration_error(std::vector<double>{0.5}, {}),
                  std::invalid_argument);
+    for (const double p : {-0.1, 1.1, std::nan("")})
+        EXPECT_THROW((void)rec::expected_calibration_error(std::vector<double>{p}, {true}),
+                     std::invalid_argument);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 
@@ -51,14 +52,17 @@ TEST(learned_views, refuse_what_does_not_fit_together) {
     };
     refuses([](auto& l) { l.names.pop_back(); });
     refuses([](auto& l) { l.sources.pop_back(); });
+    refuses([](auto& l) { l.sources.back() = 0xffffffff; });  // the next one would be 0
     refuses([](auto& l) { l.samples.values.pop_back(); });
     refuses([](auto& l) { l.samples.classes[1] = 2; });
     refuses([](auto& l) { l.samples.values[3] = std::nan(""); });
     refuses([](auto& l) { l.temperature = 0.0; });
+    refuses([](auto& l) { l.temperature = 1e-310; });
     refuses([](auto& l) { l.temperature = std::numeric_limits<double>::infinity(); });
     refuses([](auto& l) { l.options.min_probability = 1.5; });
     refuses([](auto& l) { l.words[0].mean[0] = std::nan(""); });
     refuses([](auto& l) { l.words[0].count = 0; });
+    refuses([](auto& l) { l.words[0].count = std::numeric_limits<std::size_t>::max(); });
 }
 
 }  // namespace

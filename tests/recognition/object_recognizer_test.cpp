@@ -408,6 +408,47 @@ TEST(object_recognizer, must_be_fitted_to_two_classes) {
     EXPECT_NEAR(some_views::sum_of_probability(model.decide(v)), 1.0, 1e-12);
 }
 
+/// What was moved elsewhere has no trees, and can learn again.
+TEST(object_recognizer, must_be_fitted_again_after_a_move) {
+    auto model = furniture_recognizer();
+    const auto moved = std::move(model);
+    const auto& v = some_views::training().views[0];
+    EXPECT_EQ(moved.classes(), 3u);
+    EXPECT_THROW((void)model.explain(v), std::invalid_argument);  // NOLINT: it was moved
+    EXPECT_THROW((void)model.log_likelihood(v), std::invalid_argument);
+    learn_all(model, some_views::training(), 0, 6);
+    model.fit();
+    EXPECT_NEAR(some_views::sum_of_probability(model.decide(v)), 1.0, 1e-12);
+}
+
+/// A fit that is cancelled, in calibration or in the trees, leaves the trees and their temperature.
+TEST(object_recognizer, decides_as_before_after_a_fit_that_was_cancelled) {
+    auto model = furniture_recognizer();
+    auto learned = model.learned();
+    learned.temperature = 7.0;
+    model.restore(learned);
+    struct cancelled {};
+    bool has_ended = false;
+    for (std::size_t most = 0; !has_ended; most += 7) {
+        std::size_t trees = 0;
+        const auto run = [&](std::size_t chunks, auto&& work) {
+            for (std::size_t c = 0; c < chunks; ++c) {
+                if (trees++ == most) throw cancelled{};
+                work(c);
+            }
+        };
+        const auto before = model.explain(some_views::fresh().views[0]);
+        try {
+            model.fit(run);
+            has_ended = true;
+        } catch (const cancelled&) {
+            EXPECT_EQ(model.learned().temperature, 7.0) << most;
+            EXPECT_EQ(model.explain(some_views::fresh().views[0]).probability, before.probability);
+        }
+    }
+    EXPECT_NE(model.learned().temperature, 7.0);
+}
+
 TEST(object_recognizer, refuses_options_out_of_range) {
     rec::object_recognizer none(rec::object_recognizer_options{.trees = {.trees = 0}});
     learn_all(none, some_views::training(), 0, 6);

@@ -9,11 +9,13 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <boost/hana/tuple.hpp>
 #include <gtest/gtest.h>
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/recognition/part_features.hpp>
 #include <gnomon/recognition/part_votes.hpp>
 #include <gnomon/recognition/view.hpp>
 
@@ -161,6 +163,30 @@ TEST(part_votes, refuse_options_and_poses_that_are_not_valid) {
     rigid_motion skewed;
     skewed.rotation(0, 1) = 0.5;
     EXPECT_THROW(votes.learn(view_of_boards(chair_boards, {}), skewed, 0), std::invalid_argument);
+    EXPECT_THROW(
+        votes.learn(view_of_boards(chair_boards, {}), {}, std::numeric_limits<std::size_t>::max()),
+        std::invalid_argument);
+    rec::view v = view_of_boards(chair_boards, {});
+    v.ground->normal = {0.0, 0.0, 0.0};
+    EXPECT_THROW(votes.learn(v, {}, 0), std::invalid_argument);
+    EXPECT_TRUE(votes.samples().empty());
+    auto ignored = boost::hana::make_tuple(rec::mean_height{.weight = 0.0});
+    EXPECT_THROW(rec::part_votes({}, ignored), std::invalid_argument);
+}
+
+/// Places of parts are no features, which are checked.
+TEST(part_votes, refuse_parts_without_a_place) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    auto votes = votes_for_chair_and_table();
+    const std::size_t before = votes.samples().size();
+    rec::view nowhere = view_of_boards(chair_boards, {}), unturned = nowhere;
+    nowhere.parts[0].shape.frame.box_center.x() = nan;
+    unturned.parts[0].shape.normal.x() = nan;
+    for (const rec::view& v : {nowhere, unturned}) {
+        EXPECT_THROW(votes.learn(v, {}, 0), std::invalid_argument);
+        EXPECT_THROW(static_cast<void>(votes.places(std::vector{v})), std::invalid_argument);
+    }
+    EXPECT_EQ(votes.samples().size(), before);
 }
 
 }  // namespace

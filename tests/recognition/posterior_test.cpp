@@ -233,6 +233,9 @@ TEST(posterior, refuses_options_out_of_range) {
                      std::invalid_argument);
     for (const double t : {0.0, -1.0, nan, -minus_infinity})
         EXPECT_THROW((void)rec::decide(terms, 2, true, {.temperature = t}), std::invalid_argument);
+    // The evidence for and against both overflow, and their sum is not a number.
+    const auto torn = posterior_terms({{0.0, 9.0}, {8.0, 0.0}});
+    EXPECT_THROW((void)rec::decide(torn, 2, true, {.temperature = 1e-310}), std::invalid_argument);
     EXPECT_THROW((void)rec::decide(terms, 3, true), std::invalid_argument);
     EXPECT_THROW((void)rec::decide(std::vector<rec::term>{}, 0, true), std::invalid_argument);
 }

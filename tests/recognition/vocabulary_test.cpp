@@ -209,6 +209,11 @@ TEST(vocabulary, refuses_bad_input) {
         EXPECT_THROW((void)make_vocabulary(c, bad), std::invalid_argument);
     c[0].scatter[0][0] = samples::nan;
     EXPECT_THROW((void)make_vocabulary(c), std::invalid_argument);
+    // No enlargement makes a negative variance positive, nor a correlation of 5 possible.
+    c[0].scatter = {{{-1.0, 0.0}, {0.0, 1.0}}};
+    EXPECT_THROW((void)make_vocabulary(c), std::invalid_argument);
+    c[0].scatter = {{{1.0, 5.0}, {5.0, 1.0}}};
+    EXPECT_THROW((void)make_vocabulary(c), std::invalid_argument);
 }
 
 }  // namespace

@@ -30,12 +30,14 @@
 
 #include <gnomon/adapters/detail/json_fields.hpp>
 #include <gnomon/adapters/detail/model_fields.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/io/input.hpp>
 #include <gnomon/io/output_file.hpp>
 #include <gnomon/recognition/cluster.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
+#include <gnomon/recognition/part_feature.hpp>
 
 namespace gnomon::recognition {
 
@@ -58,6 +60,11 @@ void require_usable(const json_place& file, const Recognizer& made,
     options["max_word_distance"].require(c.options.max_word_distance >= 0.0,
                                          "must not be negative");
     file["temperature"].require(c.temperature > 0.0, "must be positive");
+    double weights = 0.0;
+    for (const double w : feature_weights(made.descriptor().features)) weights += w;
+    file["weights"].require(weights > 0.0 && std::isfinite(weights),
+                            "must not be all 0, nor of infinite sum");
+    file["classes"].require(c.names.size() > 1, "must be two or more");
     const std::set<std::string> names(c.names.begin(), c.names.end());
     file["classes"].require(names.size() == c.names.size() && !names.contains(""),
                             "must have different names that are not empty");

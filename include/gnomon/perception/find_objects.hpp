@@ -88,10 +88,12 @@ class object_finder {
 
     /// Adds an object. Several may have one name: variants of one class.
     /// @return its number
-    /// @throws std::invalid_argument  if it has no name, or its surface no samples
+    /// @throws std::invalid_argument  if it has no name, or that of background, or its surface no
+    ///                                samples
     std::size_t add(std::string name, surface_model surface) {
         using gnomon::detail::require;
         require(!name.empty(), "object_finder: an object needs a name");
+        require(name != background_name, "object_finder: an object has the name of background");
         require(surface.points().size() > 0, "object_finder: the surface has no samples");
         names_.push_back(std::move(name));
         surfaces_.push_back(std::move(surface));
@@ -144,6 +146,7 @@ class object_finder {
                                            const find_objects_options& options = {},
                                            const X& run = {}, Proj projection = {}) const {
         options.require_valid();
+        gnomon::detail::require(is_fitted_ || names_.empty(), "object_finder: fit() it first");
         const auto& team = gnomon::detail::staying(run);
         noise_curve noise = constant_noise{};
         if (options.noise) {
@@ -165,7 +168,6 @@ class object_finder {
                 kept.push_back(static_cast<point_index>(i));
         result.points = segments(std::vector<std::int32_t>(std::ranges::size(points), unlabeled));
         if (kept.empty() || !result.seen.ground || names_.empty()) return result;
-        gnomon::detail::require(is_fitted_, "object_finder: fit() it first");
 
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                           {.edge = perceive_views_options{}.cell}, team);

@@ -76,10 +76,13 @@ struct clustering {
 
 namespace detail {
 
-/// Whether mean and scatter are small enough that sums of products of them do not overflow.
+/// Whether mean and scatter are small enough that sums of products of them do not overflow, and the
+/// count that it is exact in double precision and can grow.
 template <std::size_t D>
 [[nodiscard]] bool is_finite_cluster(const cluster_statistics<D>& c) {
     constexpr double largest = 1e250;  // numerical: against overflow
+    constexpr std::size_t most = std::size_t{1} << (sizeof(std::size_t) > 4 ? 52 : 30);  // the same
+    if (c.count > most) return false;
     for (const auto& row : c.scatter)
         for (const double entry : row)
             if (!(std::abs(entry) <= largest)) return false;

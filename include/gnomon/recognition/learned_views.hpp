@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,8 +62,9 @@ struct learned_views {
         require(names.size() > 1 && n > 0 && sources.size() == n,
                 "object_recognizer: samples, classes and sources do not fit together");
         samples.require_valid(names.size());
-        require(std::is_sorted(sources.begin(), sources.end()),
-                "object_recognizer: sources must be ascending");
+        require(std::is_sorted(sources.begin(), sources.end()) &&
+                    sources.back() < std::numeric_limits<std::uint32_t>::max(),
+                "object_recognizer: sources must be ascending, and leave a number for the next");
         require(options.min_probability >= 0.0 && options.min_probability <= 1.0,
                 "object_recognizer: min_probability must be in [0, 1]");
         for (std::size_t c = 0; c < names.size(); ++c)
@@ -70,8 +72,9 @@ struct learned_views {
                         std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(c),
                                   names[c]) == names.begin() + static_cast<std::ptrdiff_t>(c),
                     "object_recognizer: a class has no name, or that of another one");
-        require(temperature > 0.0 && std::isfinite(temperature),
-                "object_recognizer: the temperature must be finite and positive");
+        constexpr double least = 1e-100;  // numerical: evidence divided by it does not overflow
+        require(temperature >= least && std::isfinite(temperature),
+                "object_recognizer: the temperature must be finite, positive and above 1e-100");
         for (const auto& w : words)
             require(w.count > 0 && detail::is_finite_cluster(w),
                     "object_recognizer: a word is not finite");

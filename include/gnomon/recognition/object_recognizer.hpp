@@ -102,9 +102,10 @@ class object_recognizer {
                                 "object_recognizer: two classes must be learned first");
         const auto& team = gnomon::detail::staying(run);
         const auto options = learned_.tree_options(descriptor_type::pair_columns);
-        learned_.temperature = detail::cross_validated_temperature(
+        const double temperature = detail::cross_validated_temperature(
             learned_.samples, learned_.sources, classes(), options, team);
         trees_ = random_trees(learned_.samples, classes(), options, team);
+        learned_.temperature = temperature;  // of these trees: not if growing them is cancelled
     }
 
     [[nodiscard]] std::size_t classes() const { return learned_.names.size(); }
@@ -183,7 +184,6 @@ class object_recognizer {
 
   private:
     static constexpr std::size_t most_players = 12;  ///< performance only: terms are quadratic
-
     static constexpr Features make_features() {
         if constexpr (std::same_as<Features, std::remove_cv_t<decltype(default_features)>>)
             return default_features;

@@ -51,17 +51,23 @@ class part_votes {
         double turn = 0.0;               ///< heading of the object less that of the part [rad]
     };
 
-    /// @throws std::invalid_argument  for options that are not valid
+    /// @throws std::invalid_argument  for options that are not valid, or weights that are all 0
     explicit part_votes(part_votes_options options = {}, Features features = default_features)
         : options_(options), features_(std::move(features)) {
         options.require_valid();
+        weighted_distance<features_per_part>{feature_weights(features_)}.require_weights();
     }
 
     /// Learns the parts of a view of an object.
-    /// @param pose  of the object's frame in that of the scan
-    /// @throws std::invalid_argument  if the view has no ground, the pose is no rigid motion, or a
-    ///                                feature is not finite; nothing is learned then
+    /// @param pose    of the object's frame in that of the scan
+    /// @param object  its number, below 1,000,000: votes of all smaller numbers are counted, too
+    /// @throws std::invalid_argument  if the view has no ground, the pose is no rigid motion, the
+    ///                                number is too large, or a feature or a place is not finite;
+    ///                                nothing is learned then
     void learn(const view& v, const rigid_motion& pose, std::size_t object) {
+        constexpr std::size_t most_objects = 1'000'000;  // performance only
+        gnomon::detail::require(object < most_objects,
+                                "part_votes: the number of an object is too large");
         gnomon::detail::require(v.ground.has_value(), "part_votes: a view needs a ground");
         gnomon::detail::require(is_rigid(pose), "part_votes: the pose is no rigid motion");
         const rigid_motion ground = detail::ground_motion(*v.ground, pose.position);
@@ -84,7 +90,7 @@ class part_votes {
     [[nodiscard]] const std::vector<sample>& samples() const { return samples_; }
 
     /// The votes of the parts of all views.
-    /// @throws std::invalid_argument  if a view has no ground, or a feature is not finite
+    /// @throws std::invalid_argument  if a view has no ground, or a feature or place is not finite
     /// Complexity: O(p s) for p parts and s samples.
     [[nodiscard]] cast_votes votes(std::span<const view> views) const {
         cast_votes all(options_, objects_);

@@ -109,8 +109,8 @@ struct decision {
 /// The decision on terms.
 /// @param has_parts  whether the view has parts; without, it is background
 /// @throws std::invalid_argument  if there is no class, a term has another number of them or
-///                                is NaN, every class is excluded, P_d is not in [0, 1], or the
-///                                temperature is not positive and finite
+///                                is NaN, every class is excluded, P_d is not in [0, 1], the
+///                                temperature is not positive and finite, or evidence overflows
 /// Complexity: O(terms * classes). Source: Klasing 2010, Eqs. (5.9) to (5.17), Sec. 5.5.2.
 [[nodiscard]] inline decision decide(std::span<const term> terms, std::size_t classes,
                                      bool has_parts, const decide_options& options = {}) {
@@ -142,6 +142,8 @@ struct decision {
         d.evidence.push_back({t.kind, t.first, t.second, t.word, ratio});
         d.log_ratio += ratio;
     }
+    require(!std::isnan(d.log_ratio),
+            "decide: evidence overflows, as the temperature is too small");
     return d;
 }
 

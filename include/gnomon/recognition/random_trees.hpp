@@ -58,8 +58,8 @@ class random_trees {
         });
     }
 
-    /// The number of classes.
-    [[nodiscard]] std::size_t classes() const { return classes_; }
+    /// The number of classes; 0 without trees, as after these were moved elsewhere.
+    [[nodiscard]] std::size_t classes() const { return trees_.empty() ? 0 : classes_; }
 
     /// Adds to `p` the mean share of each class in the leaves of a sample.
     /// Precondition: the sample is as long as those that the trees were grown on, and p has
@@ -80,7 +80,7 @@ class random_trees {
     /// The logarithms of the probabilities of a sample. A class that no tree found has half of the
     /// share of one tree. Complexity: O(trees * depth).
     [[nodiscard]] std::vector<double> log_probability(std::span<const double> sample) const {
-        std::vector<double> p(classes_, 0.5 / static_cast<double>(trees_.size()));
+        std::vector<double> p(classes(), 0.5 / static_cast<double>(trees_.size()));
         add_probability(sample, p);
         for (double& x : p) x = std::log(x);
         return p;

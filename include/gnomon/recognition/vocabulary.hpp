@@ -143,11 +143,14 @@ template <std::size_t D>
 
 /// The inverse of a covariance. Where the variance of a feature exceeds the added one by more than
 /// the digits of a double, and the matrix is singular up to rounding, the diagonal is enlarged.
+/// @throws std::invalid_argument  if it is not singular but indefinite, which no scatter is
 template <std::size_t D>
 [[nodiscard]] square_array<D> regular_inverse(square_array<D> covariance) {
     constexpr double ridge = 1e-9;  // numerical: above the rounding of a scatter
+    constexpr int most = 1000;      // numerical: a millionth of the diagonal; rounding takes one
     cholesky<D> factor(covariance);
-    while (!factor.is_positive_definite()) {
+    for (int step = 0; !factor.is_positive_definite(); ++step) {
+        gnomon::detail::require(step < most, "make_vocabulary: a scatter is indefinite");
         for (std::size_t i = 0; i < D; ++i) covariance[i][i] *= 1.0 + ridge;
         factor = cholesky<D>(covariance);
     }
@@ -167,7 +170,8 @@ template <std::size_t D>
 /// @param clusters  with finite mean and scatter
 /// @param options   least number of members, covariance, probability of the threshold
 /// @return a word for each cluster of at least `min_members` samples, in their order
-/// @throws std::invalid_argument  if an option is out of its range, or a cluster is not finite
+/// @throws std::invalid_argument  if an option is out of its range, a cluster is not finite, or its
+///                                scatter is clearly not positive semidefinite
 /// Complexity: O(D^3) for each cluster. Source: Klasing 2010, Sec. 5.3.1.
 template <std::size_t D>
 [[nodiscard]] vocabulary<D> make_vocabulary(const std::vector<cluster_statistics<D>>& clusters,
