@@ -232,6 +232,14 @@ TEST(remove_silhouettes, few_points_and_echoes_of_one_ray) {
     }
 }
 
+/// Rays from a distant origin, as those of a scan in a map without view points, are no raster: no
+/// silhouette is found, without a search among all pairs of points.
+TEST(remove_silhouettes, rays_of_unknown_view_points_are_kept) {
+    const auto scan =
+        clouds::moved(clouds::in_cube(40'000, 3), Eigen::Matrix3d::Identity(), {4e5, 5e6, 300.0});
+    EXPECT_EQ(remove_silhouettes(scan).size(), scan.size());
+}
+
 TEST(remove_silhouettes, options_are_checked) {
     const gnomon::scan scan = scan_of({{3.0, 0.1, 0.1}}, beam);
     EXPECT_THROW((void)remove_silhouettes(scan, {.divergence = radians(-1.0)}),
