@@ -21,7 +21,7 @@
 /// A length as on a drawing: "4.213 m", and its standard deviation in millimetres.
 inline std::string text_of(const measured_length& l) {
     char text[64];
-    std::snprintf(text, sizeof text, "%.3f m +-%.1f mm", l.value, 1e3 * l.sigma);
+    std::snprintf(text, sizeof text, "%.3f m \u00b1 %.1f mm", l.value, 1e3 * l.sigma);
     return text;
 }
 
