@@ -201,7 +201,7 @@ inline void write(image& drawing, const inscription& text, const camera& from,
     const bool is_inside =
         q.x() >= 0.0 && q.x() < drawing.width() && q.y() >= 0.0 && q.y() < drawing.height();
     if (!(q.z() > 0.0) || !is_inside) return;
-    constexpr int line = 20;  // pixels
+    constexpr int line = 24;  // pixels
     const int width = image::width_of(text.text);
     const int x =
         std::clamp(static_cast<int>(q.x()) - width / 2, 0, std::max(0, drawing.width() - width));
@@ -211,7 +211,7 @@ inline void write(image& drawing, const inscription& text, const camera& from,
     };
     while (std::ranges::any_of(taken, is_taken) && y + 2 * line < drawing.height()) y += 4;
     taken.push_back({x, y, width});
-    drawing.fill(x - 3, y - 2, x + width + 3, y + line - 2, white);
+    drawing.fill(x - 3, y - 3, x + width + 3, y + line - 3, white);
     drawing.write(x, y, text.text, text.tint);
 }
 
