@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include "camera.hpp"
+#include "disc.hpp"
 #include "image.hpp"
 #include "palette.hpp"
 
@@ -55,61 +56,42 @@ class canvas {
 
     /// Draws one splat as `from` sees it; those of unlabeled points are small.
     void draw(const splat& s, const camera& from) {
-        // In the frame of the camera.
         const Eigen::Vector3d center = from.axes * (s.position - from.position);
-        const Eigen::Vector3d normal = from.axes * s.normal;
         const Eigen::Vector3d q = from.pixel_of(center);
         if (!(q.z() > 0.0) || !(std::abs(q.x()) < 1e6) || !(std::abs(q.y()) < 1e6)) return;
         const bool is_dot = s.normal.isZero();
-        const double offset = normal.dot(center);
-        const double cosine = offset / center.norm();
         const double smallest = s.label < 0 ? 1.5 : 2.0;  // pixels
         const double largest = s.label < 0 ? 4.0 : 20.0;
         const double pixels = std::clamp(from.focal * s.radius / q.z(), smallest, largest);
-        const double radius = pixels * q.z() / from.focal;
+        const disc surface(center, from.axes * s.normal, pixels * q.z() / from.focal);
         // In steps, so that surfaces look smooth although their normals are noisy.
-        const double facing = std::round(12.0 * std::abs(cosine)) / 12.0;
+        const double facing = std::round(12.0 * std::abs(surface.cosine())) / 12.0;
         const double light = is_dot ? 0.8 : 0.55 + 0.45 * facing;
         const color c = mixed(color{}, s.tint, light);
 
         const int y0 = std::max(0, static_cast<int>(std::ceil(q.y() - pixels)));
         const int y1 = std::min(colors_.height() - 1, static_cast<int>(std::floor(q.y() + pixels)));
         for (int y = y0; y <= y1; ++y) {
-            // The ray (u, v, 1) meets the plane of the disc at the nearness (a u + b) / offset, and
-            // within the disc if |hit - center|^2 <= radius^2; times (a u + b)^2, that is
-            // c2 u^2 + c1 u + c0 <= 0.
-            const double v = (y - from.center_y) / from.focal;
-            const double a = normal.x(), b = normal.y() * v + normal.z();
-            const Eigen::Vector3d of_u = Eigen::Vector3d(offset, 0.0, 0.0) - a * center;
-            const Eigen::Vector3d rest = Eigen::Vector3d(0.0, offset * v, offset) - b * center;
-            const double r2 = radius * radius;
-            const double c2 = of_u.squaredNorm() - r2 * a * a;
-            const double c1 = 2.0 * (of_u.dot(rest) - r2 * a * b);
-            const double c0 = rest.squaredNorm() - r2 * b * b;
-
-            // The pixels of the row that the disc, or the dot in its middle, may cover.
-            double reach = pixels, middle = q.x();
-            if (is_dot) {
-                reach = smallest;
-            } else if (c2 > 0.0) {
-                middle = from.center_x - from.focal * 0.5 * c1 / c2;
-                const double root = std::sqrt(std::max(0.0, c1 * c1 - 4.0 * c2 * c0));
-                reach = from.focal * 0.5 * root / c2 + 1.0;
+            const disc::row row(surface, (y - from.center_y) / from.focal);
+            // The dot in the middle, and what the disc covers, with a pixel for rounding.
+            double left = q.x() - smallest, right = q.x() + smallest;
+            if (const auto ends = row.ends(); !is_dot && ends) {
+                left = std::min(left, from.center_x + from.focal * (*ends)[0] - 1.0);
+                right = std::max(right, from.center_x + from.focal * (*ends)[1] + 1.0);
+            } else if (!is_dot) {
+                left = q.x() - pixels, right = q.x() + pixels;
             }
-            const double left =
-                std::max(q.x() - pixels, std::min(q.x() - smallest, middle - reach));
-            const double right =
-                std::min(q.x() + pixels, std::max(q.x() + smallest, middle + reach));
-            const int x0 = std::max(0, static_cast<int>(std::ceil(left)));
-            const int x1 = std::min(colors_.width() - 1, static_cast<int>(std::floor(right)));
+            const int x0 = std::max(0, static_cast<int>(std::ceil(std::max(left, q.x() - pixels))));
+            const int x1 = std::min(colors_.width() - 1,
+                                    static_cast<int>(std::floor(std::min(right, q.x() + pixels))));
             const double dy = y - q.y();
             for (int x = x0; x <= x1; ++x) {
                 double near = 1.0 / q.z();
                 const double dx = x - q.x();
                 if (dx * dx + dy * dy > smallest * smallest) {
                     const double u = (x - from.center_x) / from.focal;
-                    if (is_dot || !((c2 * u + c1) * u + c0 <= 0.0)) continue;
-                    near = (a * u + b) / offset;
+                    if (is_dot || !row.is_met(u)) continue;
+                    near = row.nearness(u);
                 }
                 double& nearest = nearness_[index(x, y)];
                 if (near > nearest) {
