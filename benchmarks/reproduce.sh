@@ -7,17 +7,21 @@
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-usage() {
-    echo "usage: benchmarks/reproduce.sh TARGET [--quick] [--out DIR]" >&2
+print_usage() {
+    echo "usage: benchmarks/reproduce.sh TARGET [--quick] [--out DIR]"
     for make in "$root"/benchmarks/*/make.sh; do
-        echo "TARGET: $(basename "$(dirname "$make")")" >&2
+        echo "TARGET: $(basename "$(dirname "$make")")"
     done
+}
+usage() {
+    print_usage >&2
     exit 2
 }
 
 target='' quick='' out=$root/docs/results
 while [ $# -gt 0 ]; do
     case $1 in
+        --help) print_usage; exit 0 ;;
         --quick) quick=--quick ;;
         --out) [ $# -ge 2 ] || usage; out=$2; shift ;;
         --out=*) out=${1#--out=} ;;
@@ -30,7 +34,7 @@ done
 
 . "$root/tools/setup.sh"
 # shellcheck disable=SC2086  # a list of words
-set_up $build_packages libbenchmark-dev libstb-dev nlohmann-json3-dev pkgconf python3 python3-matplotlib
+set_up $build_packages libbenchmark-dev libstb-dev fonts-dejavu-core nlohmann-json3-dev pkgconf python3 python3-matplotlib
 
 build=$root/build/benchmarks
 cmake -S "$root" -B "$build" -G Ninja -D CMAKE_BUILD_TYPE=Release -D GNOMON_BUILD_BENCHMARKS=ON \

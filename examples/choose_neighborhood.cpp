@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdio>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -23,7 +24,11 @@ void report(const char* name, const gnomon::simulation::true_scan& truth, const 
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(
+            argc, argv,
+            "Compares neighborhoods, and the estimators that go with them, on a simulated scan."))
+        return 0;
     const auto truth =
         gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{.sigma = 0.005});
     const auto& scan = truth.scan;

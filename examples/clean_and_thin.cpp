@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "common/help.hpp"
 #include <gnomon/filters.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/io/read_las.hpp>
@@ -37,6 +38,11 @@ gnomon::scan dirty_kitchen() {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    if (printed_help(argc, argv,
+                     "Crops a scan (PLY, PCD, LAS, VTK or text), removes its outliers and thins "
+                     "it; without SCAN, a simulated kitchen.",
+                     " [SCAN]"))
+        return 0;
     // [clean_and_thin]
     // "*": with all properties of the file, such as colors and intensities.
     gnomon::scan scan = argc > 1 ? gnomon::io::read(argv[1], {"*"}) : dirty_kitchen();

@@ -9,13 +9,17 @@
 
 #include <Eigen/Core>
 
+#include "common/help.hpp"
 #include <gnomon/filters.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace sim = gnomon::simulation;
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv,
+                     "Leaves out the floor of a simulated room, and groups what stands on it."))
+        return 0;
     const sim::scene room = sim::scenes::furnished_room({.seed = 4});
     const sim::vertical nod{.mount = room.sensor};
     const auto trajectory = sim::along(4.0, [&](double seconds) {  // driving while it nods

@@ -7,6 +7,7 @@
 #include <exception>
 #include <vector>
 
+#include "common/help.hpp"
 #include <gnomon/features/describe_points.hpp>
 #include <gnomon/features/shape_context.hpp>
 #include <gnomon/filters.hpp>
@@ -28,6 +29,11 @@ const char* simulated_room() {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    if (printed_help(argc, argv,
+                     "Runs the counterparts of code of PCL, Open3D and CGAL on a scan (PLY, PCD, "
+                     "VTK or text); without SCAN, a simulated room.",
+                     " [SCAN]"))
+        return 0;
     const char* const file = argc > 1 ? argv[1] : simulated_room();
 
     // [read]

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception/find_objects.hpp>
 #include <gnomon/simulation.hpp>
@@ -41,7 +42,10 @@ rec::object_finder finder_of(const std::vector<sim::furniture_model>& models,
 }
 // [learn_to_find]
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv,
+                     "Finds the furniture of a simulated, cluttered room, with its poses."))
+        return 0;
     const rec::object_finder finder = finder_of(sim::furniture_models(), 12);
     const sim::scene room =
         sim::scenes::furnished_room({.pieces = 5, .seed = 3, .clutter = 12, .touching = true});

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "common/help.hpp"
 #include <gnomon/adapters/eigen_matrix.hpp>
 #include <gnomon/adapters/pcl_cloud.hpp>
 #include <gnomon/gnomon.hpp>
@@ -41,7 +42,11 @@ struct PointCloud {
 
 }  // namespace pcl
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(
+            argc, argv,
+            "Takes a cloud of PCL and a matrix of Eigen, and gives back normals and labels."))
+        return 0;
     namespace sim = gnomon::simulation;
     const sim::scene kitchen = sim::scenes::kitchen();
     const gnomon::scan scan =

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/io/label_properties.hpp>
 #include <gnomon/io/read_las.hpp>
@@ -34,6 +35,11 @@ std::string kitchen_survey() {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    if (printed_help(argc, argv,
+                     "Writes a LAS file with the surface of each point as a label, and reads it "
+                     "again; without SURVEY.las, a simulated survey.",
+                     " [SURVEY.las]"))
+        return 0;
     const std::string path = argc > 1 ? argv[1] : kitchen_survey();
 
     // [las_labels]

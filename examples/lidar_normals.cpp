@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -36,7 +37,9 @@ double report(const char* method, const sim::scene& street, const sim::true_scan
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Estimates normals of a simulated sweep of a spinning lidar."))
+        return 0;
     const sim::scene street = sim::scenes::street({.seed = 1});
     const sim::spinning_lidar lidar = sim::scanners::velodyne_hdl_32e();
     const sim::true_scan truth = sim::simulate(

@@ -2,11 +2,16 @@
 // Which segments of a room are one surface behind an occluder, and how long does each step take?
 #include <cstdio>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv,
+                     "Merges the surfaces of a simulated kitchen behind occluders, and prints the "
+                     "time of each step."))
+        return 0;
     // A kitchen, seen by a laser range finder that rolls about its viewing direction.
     const gnomon::simulation::scene kitchen = gnomon::simulation::scenes::kitchen();
     const gnomon::simulation::rotational trajectory{.mount = kitchen.sensor};

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -67,7 +68,10 @@ bool report(const char* name, gnomon::surface_type expected, const auto& shape,
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv,
+                     "Names the types of curved surfaces, one simulated scan for each."))
+        return 0;
     using enum gnomon::surface_type;
     const sim::pose ahead = sim::at(1.2, 0.0, 0.0);
     const sim::pose wall = ahead * sim::pitch(gnomon::degrees(90));

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/segmentation/segment_image.hpp>
 #include <gnomon/simulation.hpp>
@@ -13,6 +14,11 @@
 namespace sim = gnomon::simulation;
 
 int main(int argc, char** argv) try {
+    if (printed_help(argc, argv,
+                     "Finds the surfaces of an organized image without a tree; without FRAME.pcd, "
+                     "of a simulated scan.",
+                     " [FRAME.pcd]"))
+        return 0;
     gnomon::scan scan;
     if (argc > 1) {
         scan = gnomon::io::read(argv[1]);  // with the width of the image

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -53,7 +54,9 @@ void report(const char* what, const auto& surface, const std::vector<Eigen::Vect
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Takes points from containers of its own, without copies."))
+        return 0;
     const gnomon::simulation::true_scan truth =
         gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{});
     const gnomon::scan& scan = truth.scan;

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -68,7 +69,9 @@ void report(const char* name, const gnomon::simulation::true_scan& truth, const 
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Compares estimators of its own with one of the library."))
+        return 0;
     const auto truth =
         gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{.sigma = 0.005});
     report("first_triangle (a lambda)", truth, first_triangle);

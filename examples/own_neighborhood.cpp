@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -45,7 +46,9 @@ struct pixels_around {
 static_assert(gnomon::neighborhood<pixels_around, gnomon::scan>);
 // [own_neighborhood]
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Compares a neighborhood of its own with one of the library."))
+        return 0;
     const sim::scene kitchen = sim::scenes::kitchen();
     const auto truth = sim::simulate(kitchen, sim::vertical{.mount = kitchen.sensor});
     const std::size_t width = sim::scanner().beams();

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "common/help.hpp"
 #include <gnomon/features/describe_points.hpp>
 #include <gnomon/gnomon.hpp>
 
@@ -131,7 +132,8 @@ bool hidden_or_continued(gnomon::observation seen) {
 static_assert(gnomon::merge_policy<decltype(&hidden_or_continued)>);
 // [own_merge_policy]
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Runs one policy of its own of each kind.")) return 0;
     // A wall 2 m in front of the sensor, behind a post 1 m in front of it.
     std::vector<Eigen::Vector3d> points;
     for (int i = -50; i <= 50; ++i) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "common/help.hpp"
 #include <gnomon/simulation.hpp>
 
 // [own_ray_caster]
@@ -39,7 +40,9 @@ struct forward {
 static_assert(sim::sensor_trajectory<forward>);
 // [own_trajectory]
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Simulates a scan with a ray caster and a trajectory of its own."))
+        return 0;
     const sim::scene kitchen = sim::scenes::kitchen();
     const auto truth =
         sim::simulate(kitchen, linear_caster{&kitchen}, forward{.mount = kitchen.sensor});

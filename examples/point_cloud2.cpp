@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "common/help.hpp"
 #include <gnomon/adapters/point_cloud2.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/io/label_properties.hpp>
@@ -80,7 +81,10 @@ sensor_msgs::msg::PointCloud2 message_of_a_driver() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv,
+                     "Takes a message sensor_msgs/PointCloud2, and makes one of its surfaces."))
+        return 0;
     surface_node node;
     const sensor_msgs::msg::PointCloud2 result = node.on_cloud(message_of_a_driver());
     std::printf("frame %s, %u x %u points of %u bytes:", result.header.frame_id.c_str(),

@@ -3,11 +3,16 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <string_view>
 
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
 
 int main(int argc, char** argv) try {
+    if (argc > 1 && std::string_view(argv[1]) == "--help") {
+        std::puts("usage: quick_start [SCAN]");
+        return 0;
+    }
     gnomon::scan scan;  // or any range of points of your own [m]
     if (argc > 1) {
         scan = gnomon::io::read(argv[1]);  // .ply, .pcd, .vtk, text

@@ -6,12 +6,17 @@
 #include <cstdio>
 #include <vector>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace sim = gnomon::simulation;
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(
+            argc, argv,
+            "Prints normals, covariances and the coefficients of planes of a simulated scan."))
+        return 0;
     const gnomon::scan scan = sim::simulate(sim::box_and_cylinder{.sigma = 0.003}).scan;
     const gnomon::adjacency graph = gnomon::knn{.k = 30}(scan);
 

@@ -8,6 +8,7 @@
 
 #include <boost/hana/append.hpp>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/recognition.hpp>
 #include <gnomon/simulation.hpp>
@@ -41,7 +42,8 @@ struct density {
 static_assert(rec::part_feature<density>);
 // [own_feature]
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Recognizes simulated furniture, and prints why.")) return 0;
     const gnomon::plane floor{};
     const auto all = sim::furniture_models();
     const std::vector<sim::furniture_model> models{all[0], all[3], all[6], all[9]};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
@@ -24,7 +25,10 @@ gnomon::scan next_scan(const sim::scene& room, int frame) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv,
+                     "Processes simulated scans, one after the other, on threads that stay alive."))
+        return 0;
     const sim::scene room = sim::scenes::kitchen();
     // [scan_loop]
     const gnomon::perception chain{gnomon::knn{.k = 30}, gnomon::plane_pca{},

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -227,7 +228,7 @@ std::string picture_of(const gnomon::scan& scan, const result& r, const options&
                                           : scan.viewpoints.positions().front();
     return picture::picture_of(picture::splats_of(scan, r, o.threads),
                                picture::sizes_of(r.surfaces), "segment", viewpoint, o.up,
-                               picture::color_of, picture::gaps_of(scan, r))
+                               picture::color_of, picture::gaps_of(scan, r), o.threads)
         .png();
 }
 
@@ -290,9 +291,14 @@ void print_table(const json& report, unsigned threads) {
     }
     if (segments.size() > 10) std::puts("  ...");
     std::puts("");
+    long milliseconds = 0;  // the sum of the numbers that are printed
     for (const auto& [step, seconds] : report["seconds"].items()) {
-        std::printf("%-18s %8.3f s\n", step.c_str(), seconds.get<double>());
+        if (step == "total") continue;
+        const long rounded = std::lround(1e3 * seconds.get<double>());
+        std::printf("%-18s %8.3f s\n", step.c_str(), 1e-3 * static_cast<double>(rounded));
+        milliseconds += rounded;
     }
+    std::printf("%-18s %8.3f s\n", "total", 1e-3 * static_cast<double>(milliseconds));
     std::printf("%-18s %8u\n", "threads used", threads);
 }
 
@@ -316,6 +322,13 @@ double sum_of(const json& seconds) {
     double sum = 0.0;
     for (const auto& [step, duration] : seconds.items()) sum += duration.get<double>();
     return sum;
+}
+
+/// The text of a JSON object with one more member, whose value is a text already.
+std::string with_last_member(std::string object, const std::string& name,
+                             const std::string& value) {
+    object.resize(object.rfind("\n}"));
+    return object + ",\n  \"" + name + "\": " + value + "\n}";
 }
 
 void segment_scan(const options& o) {
@@ -353,19 +366,22 @@ void segment_scan(const options& o) {
         });
     }
     const std::string png = timed("picture", [&] { return picture_of(scan, r, o); });
+    std::string segments_text;
     timed("writing", [&] {
+        segments_text = segments.dump(2);
         write_points(out, scan, r);
         if (o.polygons) gnomon::io::replace_file(out / "polygons.ply", mesh_of(bounds));
         gnomon::io::replace_file(out / "segments.png", png);
     });
     seconds["total"] = sum_of(seconds);
-    const json report{{"points", scan.size()},
-                      {"valid", std::ranges::count_if(scan, gnomon::is_finite)},
-                      {"noise", description_of(r.noise, o)},
-                      {"seconds", seconds},
-                      {"segments_before_merging", r.initial_segments.size()},
-                      {"segments", segments}};
-    gnomon::io::replace_file(out / "segments.json", report.dump(2) + "\n");
+    json report{{"points", scan.size()},
+                {"valid", std::ranges::count_if(scan, gnomon::is_finite)},
+                {"noise", description_of(r.noise, o)},
+                {"seconds", seconds},
+                {"segments_before_merging", r.initial_segments.size()}};
+    gnomon::io::replace_file(out / "segments.json",
+                             with_last_member(report.dump(2), "segments", segments_text) + "\n");
+    report["segments"] = std::move(segments);
     print_table(report, o.threads.count());
     out.report();
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "common/help.hpp"
 #include <gnomon/simulation.hpp>
 
 // [own_shape]
@@ -29,7 +30,8 @@ struct disc {
 static_assert(sim::shape<disc>);
 // [own_shape]
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Simulates a scan of a shape of its own.")) return 0;
     sim::scene world = sim::scenes::kitchen();
     world.add_object("mirror", disc{0.4},
                      sim::at(1.2, -2.19, 1.5) * sim::roll(gnomon::degrees(90)));

@@ -2,10 +2,13 @@
 // How good are normals where the truth is known?
 #include <cstdio>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Prints the quality of the normals of a simulated scan."))
+        return 0;
     // [simulate_room]
     namespace sim = gnomon::simulation;
 

@@ -80,8 +80,7 @@ std::string picture_of(const sim::scene& world, const sim::true_scan& truth,
     for (const std::size_t object : order) {
         if (count[object] == 0) break;
         label_of[object] = static_cast<std::int32_t>(legend.size());
-        legend.push_back(picture::in_ascii(world.objects()[object]) + " " +
-                         picture::with_commas(count[object]));
+        legend.push_back(world.objects()[object] + " " + picture::with_commas(count[object]));
     }
 
     const gnomon::spatial_index index(truth.scan);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/help.hpp"
 #include <gnomon/simulation.hpp>
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Simulates a spinning lidar on a driving car.")) return 0;
     // [simulate_street]
     namespace sim = gnomon::simulation;
 

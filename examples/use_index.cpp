@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
-int main() {
+int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Builds one index for several algorithms.")) return 0;
     const auto truth = gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{});
     const gnomon::scan& scan = truth.scan;
     // [use_index]

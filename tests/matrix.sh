@@ -8,10 +8,14 @@
 # row failed. The messages of compilers and programs are in build/matrix/ROW.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
+. "$root/tools/setup.sh"
+if [ "${1-}" = --help ]; then
+    print_head "$0"
+    exit 0
+fi
 cd "$root"
 if [ "${1-}" = --install ]; then
     shift
-    . "$root/tools/setup.sh"
     # shellcheck disable=SC2086  # a list of words
     set_up $build_packages googletest -- clang-14 clang-16 libc++-16-dev libc++abi-16-dev lld-16 g++-11 \
         g++-12 g++-12-multilib wasi-libc libclang-rt-16-dev-wasm32 libc++-16-dev-wasm32 \

@@ -24,6 +24,9 @@ add_style_test(references Python3::Interpreter ${tools}/check_references.py)
 # That these can fail, on small trees that break each rule.
 add_style_test(tools Python3::Interpreter -m unittest discover -s tests/tools -p "*_test.py")
 add_style_test(snippets Python3::Interpreter ${tools}/check_snippets.py)
+add_style_test(help Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/examples/help_test.py
+    ${CMAKE_CURRENT_SOURCE_DIR}/run.sh ${CMAKE_CURRENT_SOURCE_DIR}/sanitize.sh
+    ${CMAKE_CURRENT_SOURCE_DIR}/matrix.sh ${PROJECT_SOURCE_DIR}/docs/build.sh)
 # The reference has no undocumented name, no broken link, and all names near its start; without doxygen
 # it is not built.
 add_style_test(site sh docs/build.sh --test ${CMAKE_CURRENT_BINARY_DIR}/site)

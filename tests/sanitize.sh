@@ -6,6 +6,11 @@
 #     sh tests/sanitize.sh FLOOR...    those of some floors, e.g. core io
 # The thread sanitizer runs only those of core, which has all that threads share.
 set -eu
+. "$(dirname "$0")/../tools/setup.sh"
+if [ "${1-}" = --help ]; then
+    print_head "$0"
+    exit 0
+fi
 cd "$(dirname "$0")/.."
 sh tests/run.sh --set-up-only
 jobs=$(getconf _NPROCESSORS_ONLN)
@@ -15,15 +20,12 @@ if [ $# -eq 0 ]; then
     cmake --build --preset dev
     ctest --preset dev -j "$jobs" --progress
 else
-    targets='' labels=''
-    for floor in "$@"; do
-        targets="$targets ${floor}_tests"
-        labels="$labels${labels:+|}$floor"
-    done
+    . tests/floors.sh
+    floors_of "$@"
     cmake --preset dev
     # shellcheck disable=SC2086  # a list of words
     cmake --build --preset dev --target $targets
-    ctest --preset dev -j "$jobs" --progress -L "^($labels)\$"
+    ctest --preset dev -j "$jobs" --progress -L "$labels"
 fi
 
 fixed_addresses=''  # older sanitizers stumble over much address randomisation

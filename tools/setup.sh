@@ -46,9 +46,13 @@ set_up() {
 }
 
 # What every build needs (Boost for Hana, which the registry of estimators unfolds), and what the
-# examples need in addition (zlib, because Assimp links it and its package does not require it).
+# examples need in addition (a font for the labels of pictures; zlib, because Assimp links it and its
+# package does not require it).
 build_packages="g++ cmake ninja-build libeigen3-dev libnanoflann-dev libboost-dev"
-example_packages="libstb-dev nlohmann-json3-dev libassimp-dev zlib1g-dev"
+example_packages="libstb-dev fonts-dejavu-core nlohmann-json3-dev libassimp-dev zlib1g-dev"
+
+# print_head SCRIPT: the comment at the head of a script, which is its usage.
+print_head() { awk 'NR > 2 { if (!/^#/) exit; sub(/^# ?/, ""); print }' "$1"; }
 
 # python_with MODULE: names a Python that has this module. The system's packages are for the system's
 # own Python, which need not be the first on the path.

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../../examples/common/help.hpp"
 #include "../surfaces/furnished.hpp"
 #include "../surfaces/scores.hpp"
 #include "chain.hpp"
@@ -136,12 +137,15 @@ std::optional<selection> selection_of(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const char* const arguments =
+        " --chain LIBRARY [--seeds FIRST COUNT] [--noise MM|true]\n"
+        "    [--without merging|narrow_gaps]... [--scan FILE]...";
+    if (printed_help(argc, argv, "Prints the scores of a chain, one JSON object per line.",
+                     arguments))
+        return 0;
     const auto chosen = selection_of({argv + 1, argv + argc});
     if (!chosen) {
-        std::fprintf(stderr,
-                     "usage: %s --chain LIBRARY [--seeds FIRST COUNT] [--noise MM|true]\n"
-                     "    [--without merging|narrow_gaps]... [--scan FILE]...\n",
-                     argv[0]);
+        std::fputs(usage_of(argv[0], arguments).c_str(), stderr);
         return 2;
     }
     try {

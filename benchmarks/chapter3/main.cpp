@@ -9,6 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "../../examples/common/help.hpp"
 #include "measure.hpp"
 
 namespace {
@@ -25,6 +26,12 @@ std::string processor() {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const char* const arguments =
+        " [--quick] [options of Google Benchmark, such as --benchmark_filter=REGEX, "
+        "--benchmark_out=FILE]";
+    if (printed_help(argc, argv, "Measures, and prints a table; --quick: of fewer scans.",
+                     arguments))
+        return 0;
     std::vector<char*> words(argv, argv + argc);
     const auto is_quick = [](const char* word) { return std::string_view(word) == "--quick"; };
     const effort much{.quick = std::erase_if(words, is_quick) > 0};
@@ -32,10 +39,8 @@ int main(int argc, char** argv) {
     words.push_back(nullptr);
     benchmark::Initialize(&left, words.data());
     if (left > 1) {
-        std::fprintf(stderr,
-                     "%s: unknown word %s\nusage: %s [--quick] [options of Google Benchmark, "
-                     "such as --benchmark_filter=REGEX, --benchmark_out=FILE]\n",
-                     argv[0], words[1], argv[0]);
+        std::fprintf(stderr, "%s: unknown word %s\n%s", argv[0], words[1],
+                     usage_of(argv[0], arguments).c_str());
         return 2;
     }
     benchmark::AddCustomContext("quick", much.quick ? "true" : "false");

@@ -18,6 +18,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "../../examples/common/help.hpp"
 #include <gnomon/io/output_file.hpp>
 
 using json = nlohmann::ordered_json;
@@ -68,7 +69,10 @@ inline double rounded(double value, int digits) {
 
 /// A main program: NAME [--quick] --out DIR, where measure(effort) returns the tables. `more`
 /// lists further options of the program.
-int run_program(int argc, char** argv, auto&& measure, const char* more = "") {
+int run_program(int argc, char** argv, auto&& measure, const std::string& more = "") {
+    const std::string arguments = " [--quick]" + more + " --out DIR";
+    if (printed_help(argc, argv, "Writes its tables into DIR; --quick: of fewer scans.", arguments))
+        return 0;
     effort much;
     bool understood = true;
     for (int i = 1; i < argc; ++i) {
@@ -82,7 +86,7 @@ int run_program(int argc, char** argv, auto&& measure, const char* more = "") {
     }
     const std::string name = std::filesystem::path(argv[0]).filename().string();
     if (!understood || much.out.empty()) {
-        std::fprintf(stderr, "usage: %s [--quick]%s --out DIR\n", name.c_str(), more);
+        std::fputs(usage_of(argv[0], arguments).c_str(), stderr);
         return 2;
     }
     try {

@@ -34,6 +34,7 @@
 #ifdef GNOMON_BENCHMARKS_PCL
 #include "known_normals/pcl.hpp"
 #endif
+#include "../../examples/common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/normals/registry.hpp>
 
@@ -54,11 +55,12 @@ struct plan {
     bool quick = false;
 };
 
-constexpr const char* usage =
-    "usage: known_normals [--quick] [--meshes FOLDER]\n"
+constexpr const char* arguments = " [--quick] [--meshes FOLDER]";
+constexpr const char* details =
+    "Prints the errors of normals of shapes whose normals are known.\n"
     "  --quick          four shapes of fewer points, few k\n"
     "  --meshes FOLDER  with octagonal_pocket.stl, featuretype.stl and wingnut.obj;\n"
-    "                   the default is ../shared/data/normals_truth\n";
+    "                   the default is ../shared/data/normals_truth";
 
 /// The time of `work` [s].
 double time_of(auto&& work) {
@@ -210,11 +212,13 @@ plan plan_of(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (printed_help(argc, argv, details, arguments)) return 0;
     plan p;
     try {
         p = plan_of({argv + 1, argv + argc});
     } catch (const std::invalid_argument& problem) {
-        std::fprintf(stderr, "known_normals: cannot understand '%s'\n%s", problem.what(), usage);
+        std::fprintf(stderr, "known_normals: cannot understand '%s'\n%s%s\n", problem.what(),
+                     usage_of(argv[0], arguments).c_str(), details);
         return 2;
     }
     try {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../../examples/common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception/perception.hpp>
 #include <gnomon/segmentation/segment_image.hpp>
@@ -44,9 +45,14 @@ gnomon::scan corner(std::size_t width, std::size_t height) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const char* const arguments = " [--quick | FRAME.pcd]";
+    if (printed_help(argc, argv,
+                     "Prints the times of surfaces of an organized image, with a tree and without.",
+                     arguments))
+        return 0;
     const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
     if (argc > 2) {
-        std::fputs("usage: organized_image_times [--quick | FRAME.pcd]\n", stderr);
+        std::fputs(usage_of(argv[0], arguments).c_str(), stderr);
         return 2;
     }
     const gnomon::scan scan = argc == 2 && !quick ? gnomon::io::read(argv[1])

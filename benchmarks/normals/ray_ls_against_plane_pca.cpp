@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../../examples/common/help.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -40,9 +41,14 @@ result run(const sim::true_scan& truth, const gnomon::adjacency& graph, const au
 }  // namespace
 
 int main(int argc, char** argv) {
+    const char* const arguments = " [--quick]";
+    if (printed_help(argc, argv,
+                     "Prints how much better normals by ray_ls are than those by plane_pca.",
+                     arguments))
+        return 0;
     const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
     if (argc > 2 || (argc == 2 && !quick)) {
-        std::fputs("usage: ray_ls_against_plane_pca [--quick]\n", stderr);
+        std::fputs(usage_of(argv[0], arguments).c_str(), stderr);
         return 2;
     }
     const sim::scene world = sim::scenes::kitchen();

@@ -16,6 +16,7 @@
 #include <string>
 #include <system_error>
 
+#include "../../examples/common/help.hpp"
 #include "vectors.hpp"
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/execution.hpp>
@@ -116,16 +117,17 @@ peers::vectors part(const peers::vectors& list, std::size_t points) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const char* const arguments = " NAME DIRECTORY [POINTS]";
+    const char* const names =
+        "NAME: kitchen, kitchen_preprocessed, kitchen_medium, kitchen_million, "
+        "kitchen_ten_million, or a file";
+    if (printed_help(argc, argv, names, arguments)) return 0;
     const std::string count = argc == 4 ? argv[3] : "0";
     std::size_t points = 0;
     const auto [end, problem] = std::from_chars(count.data(), count.data() + count.size(), points);
     const bool counts = problem == std::errc{} && *end == '\0' && (argc == 3 || points > 0);
     if (argc < 3 || argc > 4 || !counts) {
-        std::fputs(
-            "usage: cloud NAME DIRECTORY [POINTS]\n"
-            "NAME: kitchen kitchen_preprocessed kitchen_medium kitchen_million\n"
-            "      kitchen_ten_million, or a file\n",
-            stderr);
+        std::fprintf(stderr, "%s%s\n", usage_of(argv[0], arguments).c_str(), names);
         return 2;
     }
     try {

@@ -26,6 +26,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "../../examples/common/help.hpp"
 #include "peak_memory.hpp"
 #include "vectors.hpp"
 
@@ -160,6 +161,14 @@ inline std::optional<double> reach_of(std::string_view job, std::string_view tex
 template <job... Jobs>
 int serve(const std::string& version, int argc, char** argv) {
     const std::size_t count = sizeof...(Jobs);
+    const std::string arguments = " [JOB DIRECTORY REACH THREADS]";
+    const std::string jobs = "JOB:" + ((" '" + detail::id<Jobs>() + "'") + ...);
+    if (printed_help(argc, argv,
+                     "Runs a job on the cloud in DIRECTORY, once for each line on stdin; without "
+                     "arguments, prints in JSON what it has. " +
+                         jobs,
+                     arguments))
+        return 0;
     if (argc == 1) {
         std::printf(R"({"version": "%s", "compiler": "%s", "flags": "%s", "jobs": [)",
                     version.c_str(), PEERS_COMPILER, PEERS_FLAGS);
@@ -173,9 +182,7 @@ int serve(const std::string& version, int argc, char** argv) {
     const auto reach = detail::reach_of(argc == 5 ? argv[1] : "", argc == 5 ? argv[3] : "");
     const auto threads = detail::number<unsigned>(argc == 5 ? argv[4] : "");
     if (!reach || !threads || !((argv[1] == detail::id<Jobs>()) || ...)) {
-        std::fprintf(stderr, "usage: %s [JOB DIRECTORY REACH THREADS]\nJOB:", argv[0]);
-        (std::fprintf(stderr, " '%s'", detail::id<Jobs>().c_str()), ...);
-        std::fputs("\n", stderr);
+        std::fprintf(stderr, "%s%s\n", usage_of(argv[0], arguments).c_str(), jobs.c_str());
         return 2;
     }
     try {

@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 #include <benchmark/benchmark.h>
 
+#include "../../examples/common/help.hpp"
 #include <gnomon/adapters/embree_caster.hpp>
 #include <gnomon/simulation.hpp>
 #include <unsupported/Eigen/BVH>
@@ -154,6 +155,9 @@ void scan(benchmark::State& state, const sim::beam& b) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (printed_help(argc, argv, "Measures the times of ray casters.",
+                     " [options of Google Benchmark, such as --benchmark_filter=REGEX]"))
+        return 0;
     benchmark::Initialize(&argc, argv);
     const auto measure = [](const std::string& name, const auto& what, const auto& how) {
         benchmark::RegisterBenchmark(name.c_str(), what, how)->Unit(benchmark::kMillisecond);

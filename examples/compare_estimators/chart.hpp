@@ -26,9 +26,9 @@ struct row {
 namespace chart {
 
 inline constexpr int row_height = 26;
-inline constexpr int name_width = 330;
-inline constexpr int column_width = 290;
-inline constexpr int top = 92;
+inline constexpr int name_width = 290;
+inline constexpr int column_width = 310;
+inline constexpr int top = 120;
 
 inline constexpr picture::color good{70, 165, 90};
 inline constexpr picture::color weak{240, 190, 60};
@@ -48,11 +48,13 @@ struct column {
     picture::image& sheet;
     int left;
 
-    [[nodiscard]] int width() const { return column_width - 80; }
+    [[nodiscard]] int width() const { return column_width - 110; }
 
-    void head(const std::string& title, const std::string& subtitle) const {
-        sheet.write(left, 40, title, picture::ink, 2);
-        sheet.write(left, 66, subtitle, picture::no_segment, 1);
+    /// With two lines of explanation.
+    void head(const std::string& title, const std::string& first, const std::string& second) const {
+        sheet.write(left, 42, title);
+        sheet.write(left, 70, first, picture::no_segment, picture::small_text_size);
+        sheet.write(left, 92, second, picture::no_segment, picture::small_text_size);
     }
 
     /// A bar from `from` to `to`, in shares of the width.
@@ -66,7 +68,7 @@ struct column {
 
     void write(std::size_t i, const std::string& text) const {
         const int y = top + static_cast<int>(i) * row_height;
-        sheet.write(left + width() + 6, y + 8, text, picture::ink, 1);
+        sheet.write(left + width() + 6, y + 8, text, picture::ink, picture::small_text_size);
     }
 };
 
@@ -77,11 +79,12 @@ inline picture::image chart_of(const std::vector<row>& rows, const std::string& 
     using namespace chart;
     const int height = top + static_cast<int>(rows.size()) * row_height + 40;
     picture::image sheet(name_width + 4 * column_width + 20, height);
-    sheet.write(16, 10, title, picture::ink, 2);
+    sheet.write(16, 12, title);
     for (std::size_t i = 0; i <= rows.size(); ++i) {
         const int y = top + static_cast<int>(i) * row_height;
         sheet.fill(16, y, sheet.width() - 16, y + 1, rule);
-        if (i < rows.size()) sheet.write(16, y + 8, rows[i].name, picture::ink, 1);
+        if (i < rows.size())
+            sheet.write(16, y + 8, rows[i].name, picture::ink, picture::small_text_size);
     }
     const auto at = [&](int i) { return column{sheet, name_width + i * column_width}; };
 
@@ -98,12 +101,12 @@ inline picture::image chart_of(const std::vector<row>& rows, const std::string& 
     const double low = std::floor(10.0 * worst_gamma) / 10.0;
     const double decades = std::log10(slowest / fastest) + 0.2;
 
-    at(0).head("gamma",
-               "mean |<n, truth>|, from " + number("%.1f", low) + " to 1; longer is better");
-    at(1).head("error", "dark: median, light: 90 % of points, to " + number("%.0f", largest_error) +
-                            " degrees");
-    at(2).head("time", "us per normal without the search, log scale");
-    at(3).head("trust", "green: good, yellow: weak, red: no normal");
+    at(0).head("gamma", "mean |<n, truth>|, from " + number("%.1f", low) + " to 1",
+               "longer is better");
+    at(1).head("error", "dark: median, light: 90 % of points",
+               "to " + number("%.0f", largest_error) + "\u00b0");
+    at(2).head("time", "\u00b5s per normal without the search", "log scale");
+    at(3).head("trust", "green: good, yellow: weak", "red: no normal");
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const row& r = rows[i];
         at(0).draw(i, 0.0, (r.gamma - low) / (1.0 - low), bar);

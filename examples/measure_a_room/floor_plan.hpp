@@ -21,7 +21,7 @@
 /// A length as on a drawing: "4.213 m", and its standard deviation in millimetres.
 inline std::string text_of(const measured_length& l) {
     char text[64];
-    std::snprintf(text, sizeof text, "%.3f m +-%.1f mm", l.value, 1e3 * l.sigma);
+    std::snprintf(text, sizeof text, "%.3f m \u00b1 %.1f mm", l.value, 1e3 * l.sigma);
     return text;
 }
 
@@ -110,7 +110,7 @@ class floor_plan {
     /// Lines of text at a place, on white, moved in the direction `away`, where they are free.
     void write(const Eigen::Vector3d& at, const Eigen::Vector3d& away,
                const std::vector<std::string>& lines, const picture::color& c) {
-        constexpr int line_height = 20, gap = 16;
+        constexpr int line_height = 26, gap = 16;
         auto [x, y] = pixel(at);
         int w = 0;
         for (const std::string& line : lines) w = std::max(w, picture::image::width_of(line));
@@ -124,7 +124,7 @@ class floor_plan {
         for (int k = 0; k < 60 && is_written(text); ++k)
             text = {text.x0 + step_x, text.y0 + step_y, text.x1 + step_x, text.y1 + step_y};
         written_.push_back(text);
-        sheet_.fill(text.x0 - 3, text.y0 - 2, text.x1 + 3, text.y1, picture::white);
+        sheet_.fill(text.x0 - 3, text.y0 - 3, text.x1 + 3, text.y1 - 3, picture::white);
         for (std::size_t k = 0; k < lines.size(); ++k)
             sheet_.write(text.x0, text.y0 + line_height * static_cast<int>(k), lines[k], c);
     }

@@ -33,14 +33,12 @@ struct camera {
 
     /// Right and down [pixels], and the distance along the view [m]; visible if that is positive.
     [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& p) const {
-        const Eigen::Vector3d q = axes * (p - position);
-        return {center_x + focal * q.x() / q.z(), center_y + focal * q.y() / q.z(), q.z()};
+        return pixel_of(axes * (p - position));
     }
 
-    /// The direction [not of unit length: depth 1] of the ray through a pixel.
-    [[nodiscard]] Eigen::Vector3d ray(double x, double y) const {
-        return axes.transpose() *
-               Eigen::Vector3d((x - center_x) / focal, (y - center_y) / focal, 1.0);
+    /// As project(), for a point in the frame of the camera.
+    [[nodiscard]] Eigen::Vector3d pixel_of(const Eigen::Vector3d& q) const {
+        return {center_x + focal * q.x() / q.z(), center_y + focal * q.y() / q.z(), q.z()};
     }
 };
 

@@ -4,28 +4,26 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
-#include <stb_easy_font.h>
 #include <stb_image_write.h>
 
 #include "palette.hpp"
+#include "typeface.hpp"
 
 namespace picture {
 
-/// A name with '?' for what the picture has no letter for.
-[[nodiscard]] inline std::string in_ascii(std::string name) {
-    for (char& c : name) {
-        if (c < ' ' || c > '~') c = '?';
-    }
-    return name;
-}
+/// Heights of lines of text [pixels].
+inline constexpr double text_size = 22.0;
+inline constexpr double small_text_size = 17.0;
 
 /// Pixels row by row from the upper left.
 class image {
@@ -57,26 +55,20 @@ class image {
         }
     }
 
-    /// Writes ASCII text whose upper left corner is (x, y), in letters of 12 `size` pixels.
-    void write(int x, int y, std::string text, const color& c = ink, int size = 2) {
-        struct corner {
-            float x, y, z;
-            unsigned char rgba[4];
-        };
-        std::vector<corner> corners(text.size() * 64);  // a letter has at most 16 rectangles
-        const int quads = stb_easy_font_print(0.0f, 0.0f, text.data(), nullptr, corners.data(),
-                                              static_cast<int>(corners.size() * sizeof(corner)));
-        for (std::size_t q = 0; q < static_cast<std::size_t>(quads); ++q) {
-            const corner& from = corners[4 * q];
-            const corner& to = corners[4 * q + 2];
-            fill(x + size * static_cast<int>(from.x), y + size * static_cast<int>(from.y),
-                 x + size * static_cast<int>(to.x), y + size * static_cast<int>(to.y), c);
-        }
+    /// Writes a text in UTF-8, whose first capital letter has its upper left corner at (x, y).
+    void write(int x, int y, std::string_view text, const color& c = ink, double size = text_size) {
+        const typeface& face = typeface::of_labels();
+        const int line = y + static_cast<int>(std::lround(face.capital_height(size)));
+        face.draw(text, size, [&](int right, int down, double share) {
+            const int column = x + right, row = line + down;
+            if (column < 0 || column >= width_ || row < 0 || row >= height_) return;
+            at(column, row) = mixed(at(column, row), c, share);
+        });
     }
 
-    /// How wide write() will make the text.
-    [[nodiscard]] static int width_of(std::string text, int size = 2) {
-        return size * stb_easy_font_width(text.data());
+    /// How wide write() makes the text [pixels].
+    [[nodiscard]] static int width_of(std::string_view text, double size = text_size) {
+        return static_cast<int>(std::ceil(typeface::of_labels().width_of(text, size)));
     }
 
     /// The bytes of a PNG file; colors are rounded to 32 levels, so that it stays small.
@@ -87,7 +79,8 @@ class image {
                 level = static_cast<std::uint8_t>(((level + 4) / 8) * 255 / 32);
             }
         }
-        stbi_write_png_compression_level = 12;
+        // Rows as they are: of the filters of PNG, none makes flat colors smaller.
+        stbi_write_force_png_filter = 0;
         std::string bytes;
         const auto append = [](void* to, void* data, int size) {
             static_cast<std::string*>(to)->append(static_cast<const char*>(data),

@@ -4,6 +4,7 @@
 /// legend below.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "palette.hpp"
 #include "scene.hpp"
 #include "splat.hpp"
+#include <gnomon/core/execution.hpp>
 
 namespace picture {
 
@@ -44,12 +46,14 @@ struct annotation : overlay {
 /// @param up         against gravity; guessed if not known
 /// @param color_in_legend  of a label
 /// @param lines      drawn over it
-[[nodiscard]] inline image picture_of(const std::vector<splat>& splats,
-                                      const std::vector<std::string>& legend,
-                                      const std::string& group, const Eigen::Vector3d& viewpoint,
-                                      const std::optional<Eigen::Vector3d>& up = {},
-                                      color (*color_in_legend)(std::int32_t) = color_of,
-                                      const annotation& lines = {}) {
+/// @param run        how the views are drawn; the pixels do not depend on it
+template <gnomon::execution X = gnomon::sequential>
+[[nodiscard]] image picture_of(const std::vector<splat>& splats,
+                               const std::vector<std::string>& legend, const std::string& group,
+                               const Eigen::Vector3d& viewpoint,
+                               const std::optional<Eigen::Vector3d>& up = {},
+                               color (*color_in_legend)(std::int32_t) = color_of,
+                               const annotation& lines = {}, const X& run = {}) {
     constexpr int margin = 24;
     constexpr int width = 764;
     constexpr int height = 660;
@@ -60,11 +64,16 @@ struct annotation : overlay {
     if (splats.empty()) {
         sheet.write(margin, margin, "no points");
     } else {
+        const auto views = scene(splats, viewpoint, up).views();
+        std::array<image, 2> drawings{image(0, 0), image(0, 0)};
+        run(views.size(), [&](std::size_t i) {
+            drawings[i] = drawn(splats, lines, views[i].from, width, height, views[i].back);
+        });
         int x = margin;
-        for (const view& v : scene(splats, viewpoint, up).views()) {
-            sheet.write(x, 22, v.caption);
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            sheet.write(x, 22, views[i].caption);
             sheet.fill(x - 1, top - 1, x + width + 1, top + height + 1, line);
-            sheet.paste(drawn(splats, lines, v.from, width, height, v.back), x, top);
+            sheet.paste(drawings[i], x, top);
             x += width + margin;
         }
     }

@@ -10,13 +10,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "camera.hpp"
+#include "disc.hpp"
 #include "image.hpp"
 #include "palette.hpp"
 
@@ -40,7 +40,7 @@ struct stroke {
 /// A text at a place, written over all else.
 struct inscription {
     Eigen::Vector3d at;  ///< its middle, finite [m]
-    std::string text;    ///< ASCII
+    std::string text;    ///< UTF-8
     color tint;
 };
 
@@ -52,38 +52,50 @@ class canvas {
   public:
     canvas(int width, int height)
         : colors_(width, height),
-          depth_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), far_away) {}
+          nearness_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0) {}
 
     /// Draws one splat as `from` sees it; those of unlabeled points are small.
     void draw(const splat& s, const camera& from) {
-        const Eigen::Vector3d q = from.project(s.position);
+        const Eigen::Vector3d center = from.axes * (s.position - from.position);
+        const Eigen::Vector3d q = from.pixel_of(center);
         if (!(q.z() > 0.0) || !(std::abs(q.x()) < 1e6) || !(std::abs(q.y()) < 1e6)) return;
-        const Eigen::Vector3d towards = (from.position - s.position).normalized();
-        const double cosine = s.normal.dot(towards);
+        const bool is_dot = s.normal.isZero();
         const double smallest = s.label < 0 ? 1.5 : 2.0;  // pixels
         const double largest = s.label < 0 ? 4.0 : 20.0;
         const double pixels = std::clamp(from.focal * s.radius / q.z(), smallest, largest);
-        const double radius = pixels * q.z() / from.focal;
+        const disc surface(center, from.axes * s.normal, pixels * q.z() / from.focal);
         // In steps, so that surfaces look smooth although their normals are noisy.
-        const double facing = std::round(12.0 * std::abs(cosine)) / 12.0;
-        const double light = s.normal.isZero() ? 0.8 : 0.55 + 0.45 * facing;
+        const double facing = std::round(12.0 * std::abs(surface.cosine())) / 12.0;
+        const double light = is_dot ? 0.8 : 0.55 + 0.45 * facing;
         const color c = mixed(color{}, s.tint, light);
 
-        const int x1 = std::min(colors_.width() - 1, static_cast<int>(std::floor(q.x() + pixels)));
+        const int y0 = std::max(0, static_cast<int>(std::ceil(q.y() - pixels)));
         const int y1 = std::min(colors_.height() - 1, static_cast<int>(std::floor(q.y() + pixels)));
-        for (int y = std::max(0, static_cast<int>(std::ceil(q.y() - pixels))); y <= y1; ++y) {
-            for (int x = std::max(0, static_cast<int>(std::ceil(q.x() - pixels))); x <= x1; ++x) {
-                double depth = q.z();
-                if (std::hypot(x - q.x(), y - q.y()) > smallest) {
-                    if (s.normal.isZero()) continue;  // no more than a dot
-                    const Eigen::Vector3d ray = from.ray(x, y);
-                    depth = s.normal.dot(s.position - from.position) / s.normal.dot(ray);
-                    const Eigen::Vector3d hit = from.position + depth * ray;
-                    if (!((hit - s.position).squaredNorm() <= radius * radius)) continue;
+        for (int y = y0; y <= y1; ++y) {
+            const disc::row row(surface, (y - from.center_y) / from.focal);
+            // The dot in the middle, and what the disc covers, with a pixel for rounding.
+            double left = q.x() - smallest, right = q.x() + smallest;
+            if (const auto ends = row.ends(); !is_dot && ends) {
+                left = std::min(left, from.center_x + from.focal * (*ends)[0] - 1.0);
+                right = std::max(right, from.center_x + from.focal * (*ends)[1] + 1.0);
+            } else if (!is_dot) {
+                left = q.x() - pixels, right = q.x() + pixels;
+            }
+            const int x0 = std::max(0, static_cast<int>(std::ceil(std::max(left, q.x() - pixels))));
+            const int x1 = std::min(colors_.width() - 1,
+                                    static_cast<int>(std::floor(std::min(right, q.x() + pixels))));
+            const double dy = y - q.y();
+            for (int x = x0; x <= x1; ++x) {
+                double near = 1.0 / q.z();
+                const double dx = x - q.x();
+                if (dx * dx + dy * dy > smallest * smallest) {
+                    const double u = (x - from.center_x) / from.focal;
+                    if (is_dot || !row.is_met(u)) continue;
+                    near = row.nearness(u);
                 }
-                double& nearest = depth_[index(x, y)];
-                if (depth > 0.0 && depth < nearest) {
-                    nearest = depth;
+                double& nearest = nearness_[index(x, y)];
+                if (near > nearest) {
+                    nearest = near;
                     colors_.at(x, y) = c;
                 }
             }
@@ -116,12 +128,12 @@ class canvas {
         constexpr double noise = 0.012;  // of the depth: no step
         constexpr double most = 0.05;
         constexpr double strength = 6.0;
-        std::vector<double> log_depth = depth_;
-        for (double& depth : log_depth) depth = std::log(depth);
+        std::vector<double> log_depth = nearness_;
+        for (double& depth : log_depth) depth = -std::log(depth);
         for (int y = 0; y < colors_.height(); ++y) {
             for (int x = 0; x < colors_.width(); ++x) {
                 const double own = log_depth[index(x, y)];
-                if (own == far_away) continue;
+                if (std::isinf(own)) continue;
                 double behind = 0.0;
                 for (const int dy : {-distance, 0, distance}) {
                     for (const int dx : {-distance, 0, distance}) {
@@ -154,15 +166,13 @@ class canvas {
     }
 
   private:
-    static constexpr double far_away = std::numeric_limits<double>::infinity();
-
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(colors_.width()) +
                static_cast<std::size_t>(x);
     }
 
     image colors_;
-    std::vector<double> depth_;
+    std::vector<double> nearness_;  ///< 1 / depth of each pixel [1/m]; 0 where nothing is drawn
 };
 
 /// Writes a text on white where a camera sees its place, further down where others are.
@@ -173,7 +183,7 @@ inline void write(image& drawing, const inscription& text, const camera& from,
     const bool is_inside =
         q.x() >= 0.0 && q.x() < drawing.width() && q.y() >= 0.0 && q.y() < drawing.height();
     if (!(q.z() > 0.0) || !is_inside) return;
-    constexpr int line = 20;  // pixels
+    constexpr int line = 24;  // pixels
     const int width = image::width_of(text.text);
     const int x =
         std::clamp(static_cast<int>(q.x()) - width / 2, 0, std::max(0, drawing.width() - width));
@@ -183,7 +193,7 @@ inline void write(image& drawing, const inscription& text, const camera& from,
     };
     while (std::ranges::any_of(taken, is_taken) && y + 2 * line < drawing.height()) y += 4;
     taken.push_back({x, y, width});
-    drawing.fill(x - 3, y - 2, x + width + 3, y + line - 2, white);
+    drawing.fill(x - 3, y - 3, x + width + 3, y + line - 3, white);
     drawing.write(x, y, text.text, text.tint);
 }
 

@@ -42,7 +42,7 @@ inline picture::image picture_of(const gnomon::scan& scan, const scan_objects& f
         if (!o.is_recognized()) continue;
         color_of_object[v] = static_cast<std::int32_t>(legend.size());
         const auto tint = picture::mixed(picture::color_of(color_of_object[v]), picture::ink, 0.5);
-        const std::string text = std::to_string(v) + ": " + picture::in_ascii(o.name);
+        const std::string text = std::to_string(v) + ": " + o.name;
         legend.push_back(text);
         add_edges(drawing, o.box, tint);
         drawing.texts.push_back({o.box.center + 0.5 * o.box.lengths[2] * up, text, tint});
@@ -66,5 +66,6 @@ inline picture::image picture_of(const gnomon::scan& scan, const scan_objects& f
     const Eigen::Vector3d viewpoint = scan.viewpoints.positions().empty()
                                           ? Eigen::Vector3d::Zero()
                                           : scan.viewpoints.positions().front();
-    return picture::picture_of(splats, legend, "object", viewpoint, up, picture::color_of, drawing);
+    return picture::picture_of(splats, legend, "object", viewpoint, up, picture::color_of, drawing,
+                               threads);
 }

@@ -6,7 +6,9 @@
 
 import json
 import math
+import os
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -62,12 +64,12 @@ def ball():
     return "".join(f"{x} {y} {z}\n" for x, y, z in points if 80 <= x * x + y * y + z * z <= 100)
 
 
-def run(directory, name, text, *options):
+def run(directory, name, text, *options, environment=()):
     scan = directory / f"{name}.xyz"
     scan.write_text(text, encoding="utf-8")
     out = directory / f"{name}_out"
     return out, subprocess.run([program, scan, "--out", out, *options], capture_output=True,
-                               text=True, check=False)
+                               text=True, check=False, env={**os.environ, **dict(environment)})
 
 
 def report_of(directory, name, text, *options):
@@ -200,6 +202,21 @@ with tempfile.TemporaryDirectory() as name:
     check(sorted(seconds) == sorted([*STEPS, "total"]), seconds)
     total = sum(seconds[step] for step in STEPS)
     check(abs(seconds["total"] - total) <= 1e-9 * total, seconds)
+
+    # The total that is printed is the sum of the steps that are printed.
+    _, result = run(directory, "printed", plate(1.0), "--noise=0.005")
+    times = dict(re.findall(r"^([a-z ]+?) +(\d+\.\d{3}) s$", result.stdout, re.M))
+    check(list(times) == [*seconds], list(times))
+    total = sum(round(1000 * float(times[step])) for step in STEPS)
+    check(round(1000 * float(times["total"])) == total, times)
+
+    # Without a font the picture has no labels.
+    _, result = run(directory, "no_font", plate(1.0), "--noise=0.005",
+                    environment={"GNOMON_FONT": str(directory / "no_font.ttf")})
+    check(result.returncode == 0 and "labels are left out" in result.stderr, result)
+    bare = (directory / "no_font_out" / "segments.png").read_bytes()
+    lettered = (directory / "printed_out" / "segments.png").read_bytes()
+    check(bare[:8] == lettered[:8] == b"\x89PNG\r\n\x1a\n" and bare != lettered, "no labels")
 
     same, _ = report_of(directory, "sigma", plate(1.0), "--sigma", "0.005")
     check(same["noise"] == report["noise"] and same["segments"] == report["segments"], same)

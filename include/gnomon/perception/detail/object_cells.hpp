@@ -29,7 +29,7 @@ template <class R>
     std::vector<double> squared;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
         if (nearest[i].size() == nearby)
-            squared.push_back(squared_distance(position[i], position[nearest[i].back()]));
+            squared.push_back(gnomon::squared_distance(position[i], position[nearest[i].back()]));
     }
     if (squared.empty()) return std::min(least, k);
     const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
