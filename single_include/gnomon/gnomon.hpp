@@ -539,17 +539,20 @@ namespace gnomon::detail {
     return combined(1.0, combined(s, a, t, b), u, c);
 }
 
+/// Returns whether the squared norm of a neither over- nor underflows.
+[[nodiscard]] inline bool has_length(const Eigen::Vector3d& a) { return std::isnormal(dot(a, a)); }
+
 /// The unit vector along a, also if the squares of its coordinates over- or underflow.
 /// Precondition: a is finite and not zero.
 [[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
-    const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
-    const Eigen::Vector3d b = scaled(power_to_one(largest), a);
+    Eigen::Vector3d b = a;
+    if (!has_length(a)) {
+        const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+        b = scaled(power_to_one(largest), a);
+    }
     const double size = length(b);
     return {b[0] / size, b[1] / size, b[2] / size};
 }
-
-/// Returns whether the squared norm of a neither over- nor underflows.
-[[nodiscard]] inline bool has_length(const Eigen::Vector3d& a) { return std::isnormal(dot(a, a)); }
 
 /// M a
 [[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& m, const Eigen::Vector3d& a) {
@@ -24294,6 +24297,39 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/prefetch.hpp --------------------------------------------------------
+
+/// @file
+/// Loads of memory before it is needed, while the processor computes something else. For
+/// performance only; nothing for compilers other than g++ and clang.
+
+namespace gnomon::detail {
+
+/// Starts to load the cache line at an address, which need not be one of an object.
+inline void prefetch([[maybe_unused]] const void* at) {
+#if defined(__GNUC__) || defined(__clang__)
+    __builtin_prefetch(at);
+#endif
+}
+
+/// The same for memory that will be written.
+inline void prefetch_to_write([[maybe_unused]] const void* at) {
+#if defined(__GNUC__) || defined(__clang__)
+    __builtin_prefetch(at, 1);
+#endif
+}
+
+/// Starts to load element i of a range whose elements are in memory.
+inline void prefetch_element([[maybe_unused]] const auto& range, [[maybe_unused]] auto i) {
+    if constexpr (std::is_lvalue_reference_v<decltype(range[i])>) {
+        const auto* const element = std::addressof(range[i]);
+        prefetch(element);
+        prefetch(reinterpret_cast<const char*>(element + 1) - 1);
+    }
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/features/descriptor.hpp ---------------------------------------------------------
 
 /// @file
@@ -24465,14 +24501,19 @@ class row_writer {
           describe_(describe),
           extras_(extras),
           row_of_(row_of),
-          result_(result) {}
+          result_(result),
+          row_(result.dimension, 0.0) {}
 
     /// @param places  those of the neighbors
     void operator()(std::size_t place, std::span<const std::uint32_t> places) {
         const std::size_t r = row_of_[place];
-        row_.assign(result_.dimension, 0.0);
+        float* const values = result_.values.data() + r * row_.size();
+        constexpr std::size_t line = 64 / sizeof(float);  // of the cache, performance only
+        for (std::size_t k = 0; k < row_.size(); k += line) prefetch_to_write(values + k);
         trust found = described(place, places);
-        if (usable(found) && !store(result_.values.data() + r * row_.size()))
+        if (!usable(found))
+            std::fill(row_.begin(), row_.end(), 0.0);
+        else if (!move_row(values))
             found = trust::not_finite;
         if (found != trust::good) result_.trust[r] = found;
     }
@@ -24494,23 +24535,27 @@ class row_writer {
             return describe_(p, normal, neighbors, row_);
     }
 
-    /// Stores the row, which was zero, unless an entry is not finite.
-    /// @return whether it was stored
-    [[nodiscard]] bool store(float* values) const {
-        constexpr std::size_t block = 8;   // of fixed length, for vector instructions
-        std::array<float, block> zeros{};  // NaN after a value that is not finite
-        std::size_t k = 0;
-        for (; k + block <= row_.size(); k += block) {
-            for (std::size_t l = 0; l < block; ++l) {
-                values[k + l] = static_cast<float>(row_[k + l]);
-                zeros[l] += 0.0f * values[k + l];
+    /// Stores the row in the result, which is zero unless all entries are finite, and makes it
+    /// zero.
+    /// @return whether all are
+    [[nodiscard]] bool move_row(float* values) {
+        const bool finite = with_widest([row = row_.data(), size = row_.size(), values](auto) {
+            constexpr std::size_t block = 8;   // of fixed length, for vector instructions
+            std::array<float, block> zeros{};  // NaN after a value that is not finite
+            std::size_t k = 0;
+            for (; k + block <= size; k += block) {
+                for (std::size_t l = 0; l < block; ++l) {
+                    values[k + l] = static_cast<float>(row[k + l]);
+                    zeros[l] += 0.0f * values[k + l];
+                }
+                for (std::size_t l = 0; l < block; ++l) row[k + l] = 0.0;
             }
-        }
-        for (; k < row_.size(); ++k) {
-            values[k] = static_cast<float>(row_[k]);
-            zeros[0] += 0.0f * values[k];
-        }
-        const bool finite = std::all_of(zeros.begin(), zeros.end(), [](float z) { return z == 0; });
+            for (; k < size; ++k) {
+                values[k] = static_cast<float>(std::exchange(row[k], 0.0));
+                zeros[0] += 0.0f * values[k];
+            }
+            return std::all_of(zeros.begin(), zeros.end(), [](float z) { return z == 0; });
+        });
         if (!finite) std::fill_n(values, row_.size(), 0.0f);
         return finite;
     }
@@ -24521,7 +24566,7 @@ class row_writer {
     const neighbor_extras<D>& extras_;
     std::span<const point_index> row_of_;
     point_descriptors& result_;
-    scratch<double> row_;
+    scratch<double> row_;  // zero before and after each point
     scratch<Eigen::Vector3d> positions_;
     scratch<typename neighbor_extras<D>::value> extra_;
 };
@@ -24551,28 +24596,33 @@ template <descriptor D, normal_range Surface, execution X>
     resize_touched(result.values, n * result.dimension, run);
     result.trust.resize(n);
     scratch<point_index> row_of(tree.size(), no_row);
+    scratch<point_index> again;  // rows of points that have another one before
     for (std::size_t r = 0; r < n; ++r) {
         const std::size_t i = point_of(r);
         require(i < index.size(), "describe_points: an index is out of range");
         result.trust[r] = trust_before(index, surface, i);
-        if (usable(result.trust[r]) && row_of[tree.place_of(i)] == no_row)
-            row_of[tree.place_of(i)] = static_cast<point_index>(r);
+        if (!usable(result.trust[r])) continue;
+        point_index& row = row_of[tree.place_of(i)];
+        if (row == no_row)
+            row = static_cast<point_index>(r);
+        else
+            again.push_back(static_cast<point_index>(r));
     }
     if (tree.size() > 0) {
         const neighbor_extras<D> extras(tree, surface, describe, run);
         const auto make_search = [&](const auto& of) {
-            return leaf_balls(of, [&row_of, reach](std::size_t place) {
-                return row_of[place] == no_row ? -1.0 : reach;
+            return leaf_balls(of, [&](std::size_t place) {
+                if (row_of[place] == no_row) return -1.0;
+                prefetch_element(surface, tree.index()[place]);
+                return reach;
             });
         };
         search_all_groups(tree, run, make_search, [&] {
             return row_writer<D, Surface>(tree, surface, describe, extras, row_of, result);
         });
     }
-    for (std::size_t r = 0; r < n; ++r) {  // points that are listed more than once
-        if (!usable(result.trust[r])) continue;
+    for (const std::size_t r : again) {
         const std::size_t first = row_of[tree.place_of(point_of(r))];
-        if (first == r) continue;
         std::copy_n(result[first].data(), result.dimension,
                     result.values.data() + r * result.dimension);
         result.trust[r] = result.trust[first];
@@ -24650,20 +24700,16 @@ struct cylinder_bins {
                                 neighborhood_view neighbors, auto&& add) const {
         const double across = static_cast<double>(radial_bins),
                      along = static_cast<double>(axial_bins);
-        const double per_radius = across / radius, per_height = along / height;
-        const double half = 0.5 * height;
+        block_of_neighbors block{*this};
         std::size_t inside = 0;
-        block_of_neighbors block;
         for (std::size_t first = 0; first < neighbors.size(); first += block_size) {
             const std::size_t size = std::min(block_size, neighbors.size() - first);
-            std::uint32_t kept =
-                block.measure(p, normal, neighbors.subspan(first, size), radius * radius, half);
+            std::uint32_t kept = block.measure(p, normal, neighbors.subspan(first, size));
             inside += static_cast<std::size_t>(std::popcount(kept));
             // By bits: a branch for each neighbor would often be predicted wrongly.
             for (; kept != 0; kept &= kept - 1) {
                 const auto l = static_cast<std::size_t>(std::countr_zero(kept));
-                distribute({std::sqrt(block.alpha2[l]) * per_radius, across},
-                           {(block.beta[l] + half) * per_height, along}, first + l, add);
+                distribute({block.alpha[l], across}, {block.beta[l], along}, first + l, add);
             }
         }
         return inside;
@@ -24672,14 +24718,20 @@ struct cylinder_bins {
   private:
     static constexpr std::size_t block_size = 32;  // bits of a mask; performance only
 
-    /// Squares of alpha [m^2], and beta [m], of some neighbors.
-    struct block_of_neighbors {
-        std::array<double, block_size> alpha2, beta;
+    /// alpha and beta of some neighbors, in units of the bins.
+    class block_of_neighbors {
+      public:
+        std::array<double, block_size> alpha, beta;
 
-        /// @return a bit for each neighbor with alpha^2 <= most_alpha2 and |beta| <= most_beta
+        explicit block_of_neighbors(const cylinder_bins& of)
+            : most_alpha2_(of.radius * of.radius),
+              most_beta_(0.5 * of.height),
+              per_radius_(static_cast<double>(of.radial_bins) / of.radius),
+              per_height_(static_cast<double>(of.axial_bins) / of.height) {}
+
+        /// @return a bit for each neighbor in the cylinder
         std::uint32_t measure(const Eigen::Vector3d& p, const Eigen::Vector3d& n,
-                              std::span<const Eigen::Vector3d> neighbors, double most_alpha2,
-                              double most_beta) {
+                              std::span<const Eigen::Vector3d> neighbors) {
             std::uint32_t kept = 0;
             std::array<Eigen::Vector3d, slim_pack::size> last;
             for (std::size_t l = 0; l < neighbors.size(); l += slim_pack::size) {
@@ -24690,7 +24742,7 @@ struct cylinder_bins {
                     std::copy_n(first, rest, last.begin());
                     first = last.data();
                 }
-                std::uint32_t bits = measure_pack(p, n, first, l, most_alpha2, most_beta);
+                std::uint32_t bits = measure_pack(p, n, first, l);
                 if (rest < slim_pack::size) bits &= (std::uint32_t{1} << rest) - 1;
                 kept |= bits << l;
             }
@@ -24701,8 +24753,7 @@ struct cylinder_bins {
         [[GNOMON_ALWAYS_INLINE]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
                                                             const Eigen::Vector3d& n,
                                                             const Eigen::Vector3d* first,
-                                                            std::size_t l, double most_alpha2,
-                                                            double most_beta) {
+                                                            std::size_t l) {
             static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
             const double* const at = first->data();
             const slim_pack x = slim_pack(at, stride) - p[0];
@@ -24712,11 +24763,15 @@ struct cylinder_bins {
             // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
             const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
             const slim_pack c = n[0] * y - n[1] * x;
-            const slim_pack squares = a * a + b * b + c * c;
-            std::memcpy(&beta[l], &above, sizeof above);
-            std::memcpy(&alpha2[l], &squares, sizeof squares);
-            return at_most(squares, most_alpha2) & at_most(magnitude(above), most_beta);
+            const slim_pack alpha2 = a * a + b * b + c * c;
+            const slim_pack across = per_radius_ * root(alpha2);
+            const slim_pack along = per_height_ * (above + most_beta_);
+            std::memcpy(&alpha[l], &across, sizeof across);
+            std::memcpy(&beta[l], &along, sizeof along);
+            return at_most(alpha2, most_alpha2_) & at_most(magnitude(above), most_beta_);
         }
+
+        double most_alpha2_, most_beta_, per_radius_, per_height_;
     };
 
     /// A place on an axis in units of its bins, of which the last one is closed.
@@ -24873,13 +24928,16 @@ struct spin_image {
     /// See `descriptor`.
     trust operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                      neighborhood_view neighbors, std::span<double> row) const {
-        const std::size_t inside = bins().for_each_weight(
-            p, normal, neighbors,
-            [at = row.data()](std::int64_t bin, double w, std::size_t) { at[bin] += w; });
-        if (normalize && inside > 0) {
-            const double share = 1.0 / static_cast<double>(inside);
-            for (double& entry : row) entry *= share;
-        }
+        const std::size_t inside = detail::with_widest([&](auto) {
+            const std::size_t all = bins().for_each_weight(
+                p, normal, neighbors,
+                [at = row.data()](std::int64_t bin, double w, std::size_t) { at[bin] += w; });
+            if (normalize && all > 0) {
+                const double share = 1.0 / static_cast<double>(all);
+                for (double& entry : row) entry *= share;
+            }
+            return all;
+        });
         return inside < min_neighbors ? trust::too_few_neighbors : trust::good;
     }
 

@@ -163,13 +163,16 @@ TEST(describe_points, has_a_trust_for_each_point) {
     EXPECT_EQ(describe_points(points, bare, count_above{}).trust[0], trust::degenerate);
 }
 
-/// What a user's own descriptor returns is checked.
+/// What a user's own descriptor returns is checked, and rows are zero before, whatever it returned
+/// for other points.
 TEST(describe_points, enforces_the_laws) {
     struct bad_entries : count_above {
+        static std::size_t dimension() { return 10; }
         trust operator()(const Eigen::Vector3d& p, const Eigen::Vector3d&,
                          gnomon::neighborhood_view, std::span<double> row) const {
-            row[0] = 7.0;
-            row[1] = p.x() > 0.5 ? clouds::nan : 1.0;
+            row[0] += 7.0;
+            row[1] += p.x() > 0.5 ? clouds::nan : 1.0;
+            row[9] += 5.0;
             return p.y() > 0.5 ? trust::too_few_neighbors : trust::good;
         }
     };
@@ -182,6 +185,7 @@ TEST(describe_points, enforces_the_laws) {
                                              : trust::good;
         ASSERT_EQ(rows.trust[i], expected);
         ASSERT_EQ(rows[i][0], expected == trust::good ? 7.0 : 0.0);
+        ASSERT_EQ(rows[i][9], expected == trust::good ? 5.0 : 0.0);
     }
 }
 

@@ -18,11 +18,13 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/prefetch.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/detail/vector3.hpp>
@@ -35,6 +37,7 @@
 #include <gnomon/features/descriptor.hpp>
 #include <gnomon/features/detail/neighbor_extras.hpp>
 #include <gnomon/features/detail/trust_of_normal.hpp>
+#include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/leaf_balls.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
@@ -60,14 +63,19 @@ class row_writer {
           describe_(describe),
           extras_(extras),
           row_of_(row_of),
-          result_(result) {}
+          result_(result),
+          row_(result.dimension, 0.0) {}
 
     /// @param places  those of the neighbors
     void operator()(std::size_t place, std::span<const std::uint32_t> places) {
         const std::size_t r = row_of_[place];
-        row_.assign(result_.dimension, 0.0);
+        float* const values = result_.values.data() + r * row_.size();
+        constexpr std::size_t line = 64 / sizeof(float);  // of the cache, performance only
+        for (std::size_t k = 0; k < row_.size(); k += line) prefetch_to_write(values + k);
         trust found = described(place, places);
-        if (usable(found) && !store(result_.values.data() + r * row_.size()))
+        if (!usable(found))
+            std::fill(row_.begin(), row_.end(), 0.0);
+        else if (!move_row(values))
             found = trust::not_finite;
         if (found != trust::good) result_.trust[r] = found;
     }
@@ -89,23 +97,27 @@ class row_writer {
             return describe_(p, normal, neighbors, row_);
     }
 
-    /// Stores the row, which was zero, unless an entry is not finite.
-    /// @return whether it was stored
-    [[nodiscard]] bool store(float* values) const {
-        constexpr std::size_t block = 8;   // of fixed length, for vector instructions
-        std::array<float, block> zeros{};  // NaN after a value that is not finite
-        std::size_t k = 0;
-        for (; k + block <= row_.size(); k += block) {
-            for (std::size_t l = 0; l < block; ++l) {
-                values[k + l] = static_cast<float>(row_[k + l]);
-                zeros[l] += 0.0f * values[k + l];
+    /// Stores the row in the result, which is zero unless all entries are finite, and makes it
+    /// zero.
+    /// @return whether all are
+    [[nodiscard]] bool move_row(float* values) {
+        const bool finite = with_widest([row = row_.data(), size = row_.size(), values](auto) {
+            constexpr std::size_t block = 8;   // of fixed length, for vector instructions
+            std::array<float, block> zeros{};  // NaN after a value that is not finite
+            std::size_t k = 0;
+            for (; k + block <= size; k += block) {
+                for (std::size_t l = 0; l < block; ++l) {
+                    values[k + l] = static_cast<float>(row[k + l]);
+                    zeros[l] += 0.0f * values[k + l];
+                }
+                for (std::size_t l = 0; l < block; ++l) row[k + l] = 0.0;
             }
-        }
-        for (; k < row_.size(); ++k) {
-            values[k] = static_cast<float>(row_[k]);
-            zeros[0] += 0.0f * values[k];
-        }
-        const bool finite = std::all_of(zeros.begin(), zeros.end(), [](float z) { return z == 0; });
+            for (; k < size; ++k) {
+                values[k] = static_cast<float>(std::exchange(row[k], 0.0));
+                zeros[0] += 0.0f * values[k];
+            }
+            return std::all_of(zeros.begin(), zeros.end(), [](float z) { return z == 0; });
+        });
         if (!finite) std::fill_n(values, row_.size(), 0.0f);
         return finite;
     }
@@ -116,7 +128,7 @@ class row_writer {
     const neighbor_extras<D>& extras_;
     std::span<const point_index> row_of_;
     point_descriptors& result_;
-    scratch<double> row_;
+    scratch<double> row_;  // zero before and after each point
     scratch<Eigen::Vector3d> positions_;
     scratch<typename neighbor_extras<D>::value> extra_;
 };
@@ -146,28 +158,33 @@ template <descriptor D, normal_range Surface, execution X>
     resize_touched(result.values, n * result.dimension, run);
     result.trust.resize(n);
     scratch<point_index> row_of(tree.size(), no_row);
+    scratch<point_index> again;  // rows of points that have another one before
     for (std::size_t r = 0; r < n; ++r) {
         const std::size_t i = point_of(r);
         require(i < index.size(), "describe_points: an index is out of range");
         result.trust[r] = trust_before(index, surface, i);
-        if (usable(result.trust[r]) && row_of[tree.place_of(i)] == no_row)
-            row_of[tree.place_of(i)] = static_cast<point_index>(r);
+        if (!usable(result.trust[r])) continue;
+        point_index& row = row_of[tree.place_of(i)];
+        if (row == no_row)
+            row = static_cast<point_index>(r);
+        else
+            again.push_back(static_cast<point_index>(r));
     }
     if (tree.size() > 0) {
         const neighbor_extras<D> extras(tree, surface, describe, run);
         const auto make_search = [&](const auto& of) {
-            return leaf_balls(of, [&row_of, reach](std::size_t place) {
-                return row_of[place] == no_row ? -1.0 : reach;
+            return leaf_balls(of, [&](std::size_t place) {
+                if (row_of[place] == no_row) return -1.0;
+                prefetch_element(surface, tree.index()[place]);
+                return reach;
             });
         };
         search_all_groups(tree, run, make_search, [&] {
             return row_writer<D, Surface>(tree, surface, describe, extras, row_of, result);
         });
     }
-    for (std::size_t r = 0; r < n; ++r) {  // points that are listed more than once
-        if (!usable(result.trust[r])) continue;
+    for (const std::size_t r : again) {
         const std::size_t first = row_of[tree.place_of(point_of(r))];
-        if (first == r) continue;
         std::copy_n(result[first].data(), result.dimension,
                     result.values.data() + r * result.dimension);
         result.trust[r] = result.trust[first];

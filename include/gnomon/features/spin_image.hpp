@@ -24,6 +24,7 @@
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/detail/cylinder_bins.hpp>
 #include <gnomon/features/detail/row_distance.hpp>
+#include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {
@@ -76,13 +77,16 @@ struct spin_image {
     /// See `descriptor`.
     trust operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                      neighborhood_view neighbors, std::span<double> row) const {
-        const std::size_t inside = bins().for_each_weight(
-            p, normal, neighbors,
-            [at = row.data()](std::int64_t bin, double w, std::size_t) { at[bin] += w; });
-        if (normalize && inside > 0) {
-            const double share = 1.0 / static_cast<double>(inside);
-            for (double& entry : row) entry *= share;
-        }
+        const std::size_t inside = detail::with_widest([&](auto) {
+            const std::size_t all = bins().for_each_weight(
+                p, normal, neighbors,
+                [at = row.data()](std::int64_t bin, double w, std::size_t) { at[bin] += w; });
+            if (normalize && all > 0) {
+                const double share = 1.0 / static_cast<double>(all);
+                for (double& entry : row) entry *= share;
+            }
+            return all;
+        });
         return inside < min_neighbors ? trust::too_few_neighbors : trust::good;
     }
 

@@ -56,17 +56,20 @@ namespace gnomon::detail {
     return combined(1.0, combined(s, a, t, b), u, c);
 }
 
+/// Returns whether the squared norm of a neither over- nor underflows.
+[[nodiscard]] inline bool has_length(const Eigen::Vector3d& a) { return std::isnormal(dot(a, a)); }
+
 /// The unit vector along a, also if the squares of its coordinates over- or underflow.
 /// Precondition: a is finite and not zero.
 [[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
-    const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
-    const Eigen::Vector3d b = scaled(power_to_one(largest), a);
+    Eigen::Vector3d b = a;
+    if (!has_length(a)) {
+        const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+        b = scaled(power_to_one(largest), a);
+    }
     const double size = length(b);
     return {b[0] / size, b[1] / size, b[2] / size};
 }
-
-/// Returns whether the squared norm of a neither over- nor underflows.
-[[nodiscard]] inline bool has_length(const Eigen::Vector3d& a) { return std::isnormal(dot(a, a)); }
 
 /// M a
 [[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& m, const Eigen::Vector3d& a) {

@@ -34,20 +34,16 @@ struct cylinder_bins {
                                 neighborhood_view neighbors, auto&& add) const {
         const double across = static_cast<double>(radial_bins),
                      along = static_cast<double>(axial_bins);
-        const double per_radius = across / radius, per_height = along / height;
-        const double half = 0.5 * height;
+        block_of_neighbors block{*this};
         std::size_t inside = 0;
-        block_of_neighbors block;
         for (std::size_t first = 0; first < neighbors.size(); first += block_size) {
             const std::size_t size = std::min(block_size, neighbors.size() - first);
-            std::uint32_t kept =
-                block.measure(p, normal, neighbors.subspan(first, size), radius * radius, half);
+            std::uint32_t kept = block.measure(p, normal, neighbors.subspan(first, size));
             inside += static_cast<std::size_t>(std::popcount(kept));
             // By bits: a branch for each neighbor would often be predicted wrongly.
             for (; kept != 0; kept &= kept - 1) {
                 const auto l = static_cast<std::size_t>(std::countr_zero(kept));
-                distribute({std::sqrt(block.alpha2[l]) * per_radius, across},
-                           {(block.beta[l] + half) * per_height, along}, first + l, add);
+                distribute({block.alpha[l], across}, {block.beta[l], along}, first + l, add);
             }
         }
         return inside;
@@ -56,14 +52,20 @@ struct cylinder_bins {
   private:
     static constexpr std::size_t block_size = 32;  // bits of a mask; performance only
 
-    /// Squares of alpha [m^2], and beta [m], of some neighbors.
-    struct block_of_neighbors {
-        std::array<double, block_size> alpha2, beta;
+    /// alpha and beta of some neighbors, in units of the bins.
+    class block_of_neighbors {
+      public:
+        std::array<double, block_size> alpha, beta;
 
-        /// @return a bit for each neighbor with alpha^2 <= most_alpha2 and |beta| <= most_beta
+        explicit block_of_neighbors(const cylinder_bins& of)
+            : most_alpha2_(of.radius * of.radius),
+              most_beta_(0.5 * of.height),
+              per_radius_(static_cast<double>(of.radial_bins) / of.radius),
+              per_height_(static_cast<double>(of.axial_bins) / of.height) {}
+
+        /// @return a bit for each neighbor in the cylinder
         std::uint32_t measure(const Eigen::Vector3d& p, const Eigen::Vector3d& n,
-                              std::span<const Eigen::Vector3d> neighbors, double most_alpha2,
-                              double most_beta) {
+                              std::span<const Eigen::Vector3d> neighbors) {
             std::uint32_t kept = 0;
             std::array<Eigen::Vector3d, slim_pack::size> last;
             for (std::size_t l = 0; l < neighbors.size(); l += slim_pack::size) {
@@ -74,7 +76,7 @@ struct cylinder_bins {
                     std::copy_n(first, rest, last.begin());
                     first = last.data();
                 }
-                std::uint32_t bits = measure_pack(p, n, first, l, most_alpha2, most_beta);
+                std::uint32_t bits = measure_pack(p, n, first, l);
                 if (rest < slim_pack::size) bits &= (std::uint32_t{1} << rest) - 1;
                 kept |= bits << l;
             }
@@ -85,8 +87,7 @@ struct cylinder_bins {
         [[GNOMON_ALWAYS_INLINE]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
                                                             const Eigen::Vector3d& n,
                                                             const Eigen::Vector3d* first,
-                                                            std::size_t l, double most_alpha2,
-                                                            double most_beta) {
+                                                            std::size_t l) {
             static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
             const double* const at = first->data();
             const slim_pack x = slim_pack(at, stride) - p[0];
@@ -96,11 +97,15 @@ struct cylinder_bins {
             // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
             const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
             const slim_pack c = n[0] * y - n[1] * x;
-            const slim_pack squares = a * a + b * b + c * c;
-            std::memcpy(&beta[l], &above, sizeof above);
-            std::memcpy(&alpha2[l], &squares, sizeof squares);
-            return at_most(squares, most_alpha2) & at_most(magnitude(above), most_beta);
+            const slim_pack alpha2 = a * a + b * b + c * c;
+            const slim_pack across = per_radius_ * root(alpha2);
+            const slim_pack along = per_height_ * (above + most_beta_);
+            std::memcpy(&alpha[l], &across, sizeof across);
+            std::memcpy(&beta[l], &along, sizeof along);
+            return at_most(alpha2, most_alpha2_) & at_most(magnitude(above), most_beta_);
         }
+
+        double most_alpha2_, most_beta_, per_radius_, per_height_;
     };
 
     /// A place on an axis in units of its bins, of which the last one is closed.
