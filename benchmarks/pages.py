@@ -39,8 +39,9 @@ def table(head, rows):
 
 
 def table_of(rows):
-    """Of rows with the same keys, the head."""
-    return table(list(rows[0]), [list(r.values()) for r in rows])
+    """Of rows, of which some may have fewer keys."""
+    head = list(max(rows, key=len))
+    return table(head, [[row.get(key, "-") for key in head] for row in rows])
 
 
 def heading(verdicts):

@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -69,6 +71,8 @@ class typeface {
 
     /// Reads a font, whose tables are trusted.
     explicit typeface(const std::string& path) {
+        std::error_code unknown;  // so is a path that cannot be read
+        if (!std::filesystem::is_regular_file(path, unknown)) return;
         std::ifstream file(path, std::ios::binary);
         bytes_.assign(std::istreambuf_iterator<char>(file), {});
         if (bytes_.size() < 12) return;  // the head of a font

@@ -20216,16 +20216,16 @@ class raster_reach {
     /// The reach within which most of these rays are surrounded by others; 0 if there is none, as
     /// in a single scan line.
     [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some) {
-        scratch<double> nearest, crowded;
-        constexpr std::size_t crowd = 1000, stride = 32;  // performance only: no raster has as many
+        scratch<double> nearest, to_many;
+        constexpr std::size_t many = 1000, stride = 32;  // performance only: no raster has as many
         for (std::size_t k = 0; k < some.size(); ++k) {
             nearest.push_back(rays.distance_of(some[k], 4));  // formula: the directions of a raster
-            if (k % stride == 0) crowded.push_back(rays.distance_of(some[k], crowd));
+            if (k % stride == 0) to_many.push_back(rays.distance_of(some[k], many));
         }
         if (nearest.empty()) return 0.0;
-        // Rad: coarser than any scanner, and less than that for rays without a raster, such as
-        // those from a distant origin where view points are unknown; performance.
-        const double widest = std::min(0.2, quantile_of(crowded, 0.5));
+        // [rad] Coarser than any scanner, and smaller where rays form no raster, such as those from
+        // a distant origin where view points are unknown; performance.
+        const double widest = std::min(0.2, quantile_of(to_many, 0.5));
         for (double reach = growth * std::max(quantile_of(nearest, 0.5), ray_sphere::same_ray);
              reach < widest; reach *= growth) {
             const auto surrounded = std::count_if(some.begin(), some.end(), [&](std::size_t i) {
@@ -24718,7 +24718,7 @@ struct cylinder_bins {
   private:
     static constexpr std::size_t block_size = 32;  // bits of a mask; performance only
 
-    /// alpha and beta of some neighbors, in units of the bins.
+    /// alpha, and beta from the lower end, of some neighbors, in units of the bins.
     class block_of_neighbors {
       public:
         std::array<double, block_size> alpha, beta;

@@ -142,6 +142,24 @@ TEST(pose_search, leaves_out_what_is_larger_than_a_room) {
     EXPECT_TRUE(std::ranges::all_of(places, [](const auto& p) { return p.object == 1; }));
 }
 
+/// All of a mat is in the band of the floor, which has no cells.
+TEST(pose_search, finds_no_mats) {
+    const auto all = sim::furniture_models();
+    const seen_models scene({all[0]}, {rigid_motion::on_ground(2.0, 0.8, degrees(160))});
+    std::vector<Eigen::Vector3d> mat;
+    std::vector<rec::surface_model::oriented> normals;
+    for (int i = 0; i < 20; ++i) {
+        for (int j = 0; j < 20; ++j) {
+            mat.emplace_back(0.02 * i - 0.2, 0.02 * j - 0.2, 0.01);
+            normals.push_back({{0.0, 0.0, 1.0}});
+        }
+    }
+    const std::vector surfaces{rec::surface_model(mat, normals, 0.02)};
+    EXPECT_TRUE(rec::detail::search_poses(scene.cells, scene.frame, scene.seen, surfaces,
+                                          gnomon::sequential{})
+                    .empty());
+}
+
 TEST(pose_search, of_no_objects_finds_none) {
     const auto all = sim::furniture_models();
     const seen_models scene({all[0]}, {rigid_motion::on_ground(2.0, 0.8, degrees(160))});

@@ -61,7 +61,7 @@ struct find_objects_options {
     std::optional<noise_curve> noise = std::nullopt;
     std::optional<plane> ground = std::nullopt;  ///< as in `perceive_views_options`
     Eigen::Vector3d up{0.0, 0.0, 1.0};           ///< as there
-    /// Of objects that are found; formula: more probable than not.
+    /// Of objects that are found, at least 0.05; formula: more probable than not.
     double min_probability = 0.5;
 
     /// @throws std::invalid_argument  unless the probability is from 0 to 1
@@ -86,7 +86,8 @@ class object_finder {
     /// @throws std::invalid_argument  for options that are not valid
     explicit object_finder(part_votes_options votes = {}) : votes_(votes) {}
 
-    /// Adds an object. Several may have one name: variants of one class.
+    /// Adds an object. Several may have one name: variants of one class. One that is larger than 4
+    /// m, or whose origin is not within its bounds, is found by the votes of its parts only.
     /// @return its number
     /// @throws std::invalid_argument  if it has no name, or that of background, or its surface no
     ///                                samples
@@ -139,7 +140,7 @@ class object_finder {
     /// @return none if no ground was found
     /// @throws std::invalid_argument  for options that are not valid, or before fit()
     /// Complexity: O(n log n), and O(log n) for each of about 1,000 samples of each hypothesis; at
-    /// most 12 of an object by votes, and 8 by its surface in each 64 m^2.
+    /// most 12 of an object by votes, and 8 by its surface around each 64 m^2.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] found_objects operator()(const R& points,
@@ -188,7 +189,7 @@ class object_finder {
         });
         std::vector<std::int32_t> of_cell;
         result.objects = detail::winners_of(std::move(hypotheses), scene, surfaces_,
-                                            options.min_probability, of_cell);
+                                            options.min_probability, of_cell, team);
         std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
         for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_cell[cells.of_point[i]];
         result.points = segments(std::move(labels));

@@ -19,7 +19,7 @@ struct found_object {
     verification evidence;   ///< what the scan shows of it
     double votes = 0.0;      ///< the sum over its parts, each at most 1
     /// Natural logarithm of the probability that a recognizer gives the name of this object, by the
-    /// parts of the points on its surface; 0 before it was asked.
+    /// parts of the points on its surface; 0 if it was not recognized.
     double log_recognized = 0.0;
     double probability = 0.0;  ///< that this object stands there
 };

@@ -57,11 +57,11 @@ struct part_votes_options {
 /// Votes of parts, on the ground below the first of them.
 class cast_votes {
   public:
-    /// None, for objects with numbers below `objects`.
+    /// No votes yet, for objects with numbers below `objects`.
     cast_votes(const part_votes_options& options, std::size_t objects)
         : options_(options), votes_(objects) {}
 
-    /// Votes that follow are of a further part.
+    /// Begins a further part, whose votes are the next ones.
     /// @return the frame of the ground, in which places are
     const rigid_motion& begin_part(const plane& ground, const Eigen::Vector3d& centroid) {
         if (parts_ == 0) ground_ = detail::ground_motion(ground, centroid);
@@ -69,8 +69,9 @@ class cast_votes {
         return ground_;
     }
 
-    /// A vote of the part that was begun.
-    /// @param object   its number, below that of the constructor
+    /// Adds a vote of the part that was begun. Preconditions: there is one, and `object` is below
+    /// the number of objects.
+    /// @param object   its number
     /// @param x, y     of the object's frame on the ground [m]
     /// @param heading  of the object [rad]
     void add(std::size_t object, double x, double y, double heading, double weight) {
@@ -89,6 +90,7 @@ class cast_votes {
 
     /// The places at which most votes agree.
     /// @return of each object those of most votes first
+    /// Complexity: O(v^2) for the v votes of each object.
     [[nodiscard]] std::vector<object_place> places() const {
         std::vector<object_place> places;
         for (std::size_t o = 0; o < votes_.size(); ++o) maxima_of(o, places);

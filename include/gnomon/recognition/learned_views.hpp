@@ -74,7 +74,7 @@ struct learned_views {
                     "object_recognizer: a class has no name, or that of another one");
         constexpr double least = 1e-100;  // numerical: evidence divided by it does not overflow
         require(temperature >= least && std::isfinite(temperature),
-                "object_recognizer: the temperature must be finite, positive and above 1e-100");
+                "object_recognizer: the temperature must be finite, and at least 1e-100");
         for (const auto& w : words)
             require(w.count > 0 && detail::is_finite_cluster(w),
                     "object_recognizer: a word is not finite");

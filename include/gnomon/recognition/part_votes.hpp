@@ -24,7 +24,6 @@
 
 #include <Eigen/Core>
 
-#include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>

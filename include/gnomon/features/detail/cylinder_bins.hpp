@@ -52,7 +52,7 @@ struct cylinder_bins {
   private:
     static constexpr std::size_t block_size = 32;  // bits of a mask; performance only
 
-    /// alpha and beta of some neighbors, in units of the bins.
+    /// alpha, and beta from the lower end, of some neighbors, in units of the bins.
     class block_of_neighbors {
       public:
         std::array<double, block_size> alpha, beta;

@@ -24,14 +24,18 @@ namespace gnomon::recognition::detail {
 ///
 /// Round by round: what is found in one takes its cells, which no longer count against the others
 /// in the next, as those of a chair do against the table above its seat.
+/// @param min_probability  of objects that are found, but at least scene_evidence::worth
 /// @param of_cell  gets the numbers of the winners whose surface the cells are on
 /// @return the most probable one first
+/// Complexity: O(r h) verifications for r rounds and h hypotheses.
 [[nodiscard]] inline std::vector<found_object> winners_of(std::vector<found_object> hypotheses,
                                                           const scene_evidence& scene,
                                                           std::span<const surface_model> surfaces,
                                                           double min_probability,
-                                                          std::vector<std::int32_t>& of_cell) {
+                                                          std::vector<std::int32_t>& of_cell,
+                                                          const auto& run) {
     constexpr double own_share = 0.5;  // chosen before any room was seen: the larger part
+    const double least = std::max(min_probability, scene_evidence::worth);
     const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
     of_cell.assign(scene.size(), unlabeled);
     std::vector<found_object> found;
@@ -41,7 +45,7 @@ namespace gnomon::recognition::detail {
         std::vector<found_object> others;
         for (found_object& h : hypotheses) {
             if (h.evidence.explained == 0) continue;
-            if (h.probability < min_probability) {
+            if (h.probability < least) {
                 others.push_back(std::move(h));
                 continue;
             }
@@ -55,8 +59,10 @@ namespace gnomon::recognition::detail {
             has_won = true;
         }
         hypotheses = std::move(others);
-        if (has_won)
-            for (found_object& h : hypotheses) scene.leave(h, surfaces[h.object], is_left);
+        if (!has_won) break;
+        run(hypotheses.size(), [&](std::size_t i) {
+            scene.update(hypotheses[i], surfaces[hypotheses[i].object], is_left);
+        });
     }
     // The most probable one first, also of those that were found in other rounds.
     std::vector<std::size_t> order(found.size());

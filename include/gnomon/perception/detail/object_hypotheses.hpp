@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/plane.hpp>
@@ -31,11 +31,11 @@
 #include <gnomon/perception/detail/pose_search.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/detail/part_place.hpp>
 #include <gnomon/recognition/detail/points_in_bounds.hpp>
 #include <gnomon/recognition/detail/pose_verifier.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
-#include <gnomon/recognition/part_votes.hpp>
 #include <gnomon/recognition/posterior.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/verification.hpp>
@@ -47,7 +47,7 @@ namespace gnomon::recognition::detail {
 [[nodiscard]] inline double probability_of(const found_object& o) {
     const verification& v = o.evidence;
     const std::size_t through = v.seen_through + v.supported;
-    constexpr double no_votes = 0.05;  // numerical: its logarithm is finite
+    constexpr double no_votes = 0.05;  // chosen: stands for none, in the weights below too
     const std::array<double, 7> variables{
         v.support(),
         through == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(through),
@@ -69,6 +69,9 @@ namespace gnomon::recognition::detail {
 /// The cells of a scan that may be of objects, and what the sensor saw elsewhere.
 class scene_evidence {
   public:
+    /// The probability below which a hypothesis is neither improved nor recognized, and not found.
+    static constexpr double worth = 0.05;  // chosen: a tenth of the one that is usually found
+
     scene_evidence(const voxel_grid::means& cells, visibility seen, const noise_curve& noise,
                    const plane& ground, const auto& run)
         : cells_(cells),
@@ -86,7 +89,9 @@ class scene_evidence {
         cells.reserve(cells_.size());
         for (std::size_t i = 0; i < cells_.size(); ++i)
             cells.push_back({frame.point_in(cells_.points[i]),
-                             std::abs(frame.direction_in(surface_[i].normal).z())});
+                             is_missing(surface_[i].normal)
+                                 ? ground_cell::of_both_kinds
+                                 : std::abs(frame.direction_in(surface_[i].normal).z())});
         return search_poses(cells, frame, seen_, surfaces, run);
     }
 
@@ -144,7 +149,8 @@ class scene_evidence {
 
     /// Corrects the probability of a hypothesis after other objects have taken cells.
     /// @param is_left  (i): whether cell i is of no object
-    void leave(found_object& h, const surface_model& model, const auto& is_left) const {
+    void update(found_object& h, const surface_model& model, const auto& is_left) const {
+        if (h.probability < worth) return;  // it was not recognized
         const verification_options how{.noise = noise_};
         pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
         verifier.count_points(is_left);
@@ -207,7 +213,6 @@ class scene_evidence {
         return hypothesis;
     }
 
-    static constexpr double worth = 0.05;         // performance only: probability
     static constexpr std::size_t fewest = 20;     // cells, as in views
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
     static constexpr double lowest = 0.05;        // [m]; as in verifications

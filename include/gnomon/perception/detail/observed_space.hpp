@@ -22,7 +22,10 @@ namespace gnomon::recognition::detail {
 /// A cell of a scan, in the frame of the ground.
 struct ground_cell {
     Eigen::Vector3d at;  ///< [m]
-    double up = 0.0;     ///< cosine between its normal and the vertical, without sign
+    /// Cosine between its normal and the vertical, without sign.
+    double up = of_both_kinds;
+
+    static constexpr double of_both_kinds = 0.7;  ///< also of cells without a normal
 };
 
 /// Voxels of 5 cm around some cells, for two kinds of surfaces: level ones and others.
@@ -33,12 +36,12 @@ class observed_space {
     /// where cells of the other kind are, and where the sensor saw through. Unknown space
     /// counts nothing. Chosen on furnished_room() with clutter, seeds 1 to 20, and with touching
     /// furniture, seeds 1 to 10.
-    static constexpr std::int8_t occupied = 2, beside = 1, of_other_kind = -1, empty = -3;
+    static constexpr std::int8_t occupied = 2, adjacent = 1, of_other_kind = -1, empty = -3;
 
     /// @param cells   of objects; at least one
     /// @param frame   of the ground in that of the scan
     /// @param seen    by the sensor, floor and walls included
-    /// @param reach   of objects from their origins, which are among the cells [m]
+    /// @param reach   of objects from their origins, which are within the bounds of the cells [m]
     /// @param height  of objects [m]
     /// Complexity: O(n + v i) for n cells, v voxels and i view points.
     observed_space(std::span<const ground_cell> cells, const rigid_motion& frame,
@@ -50,8 +53,8 @@ class observed_space {
             const auto k = static_cast<std::size_t>(a);
             low_[k] = low.at[a] - margin;
             size_[k] = static_cast<std::size_t>((high.at[a] - low_[k] + margin) / edge) + 1;
-            first_[k] = static_cast<std::size_t>(margin / edge);
-            last_[k] = size_[k] - first_[k];
+            begin_[k] = static_cast<std::size_t>(margin / edge);
+            end_[k] = size_[k] - begin_[k];
         }
         size_[2] = static_cast<std::size_t>(height / edge) + 3;  // one below, and one above
         for (auto& of_kind : value_) of_kind.assign(size_[0] * size_[1] * size_[2], unknown);
@@ -59,9 +62,9 @@ class observed_space {
         find_empty(frame, seen, run);
     }
 
-    /// The first column along x or y, and the one after the last, at which an origin may be.
-    [[nodiscard]] std::size_t first(std::size_t axis) const { return first_[axis]; }
-    [[nodiscard]] std::size_t last(std::size_t axis) const { return last_[axis]; }
+    /// The columns along x or y at which an origin may be, from the first to one after the last.
+    [[nodiscard]] std::size_t begin(std::size_t axis) const { return begin_[axis]; }
+    [[nodiscard]] std::size_t end(std::size_t axis) const { return end_[axis]; }
     /// The middle of a column [m].
     [[nodiscard]] double middle(std::size_t axis, std::size_t column) const {
         return low_[axis] + edge * (static_cast<double>(column) + 0.5);
@@ -94,7 +97,7 @@ class observed_space {
             kinds[(i * size_[1] + j) * size_[2] + static_cast<std::size_t>(height) + 1] |=
                 static_cast<unsigned char>((c.up < level ? 1 : 0) | (c.up > upright ? 2 : 0));
         }
-        // Cells are at least `reach` from the sides: all neighbors exist.
+        // Cells are `reach` and two voxels from the sides, and one from bottom and top.
         for (std::size_t k = 0; k < kinds.size(); ++k)
             if (kinds[k] != 0) spread(k, kinds[k]);
     }
@@ -108,7 +111,7 @@ class observed_space {
                     for (std::size_t h = 0; h < 3; ++h) {
                         const std::int8_t more = !fits                        ? of_other_kind
                                                  : i == 1 && j == 1 && h == 1 ? occupied
-                                                                              : beside;
+                                                                              : adjacent;
                         std::int8_t& v = value_[kind][k + (i * size_[1] + j) * size_[2] + h -
                                                       ((size_[1] + 1) * size_[2] + 1)];
                         v = v == unknown ? more : std::max(v, more);
@@ -119,7 +122,7 @@ class observed_space {
     }
 
     void find_empty(const rigid_motion& frame, const visibility& seen, const auto& run) {
-        constexpr double margin = 2.0 * edge;
+        constexpr double margin = 2.0 * edge;  // [m]; chosen: half a diagonal of 4 cm, and noise
         run(size_[0], [&](std::size_t i) {
             for (std::size_t j = 0; j < size_[1]; ++j) {
                 for (std::size_t h = 0; h < size_[2]; ++h) {
@@ -139,7 +142,7 @@ class observed_space {
 
     std::array<double, 2> low_{};
     std::array<std::size_t, 3> size_{};
-    std::array<std::size_t, 2> first_{}, last_{};
+    std::array<std::size_t, 2> begin_{}, end_{};
     std::array<std::vector<std::int8_t>, 2> value_;
 };
 
