@@ -39,8 +39,8 @@ namespace gnomon::recognition::detail {
     const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
     of_cell.assign(scene.size(), unlabeled);
     std::vector<found_object> found;
-    for (bool has_won = true; has_won;) {
-        has_won = false;
+    while (true) {
+        const std::size_t before = found.size();
         std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
         std::vector<found_object> others;
         for (found_object& h : hypotheses) {
@@ -56,10 +56,9 @@ namespace gnomon::recognition::detail {
             for (const point_index c : on)
                 if (is_left(c)) of_cell[c] = static_cast<std::int32_t>(found.size());
             found.push_back(std::move(h));
-            has_won = true;
         }
         hypotheses = std::move(others);
-        if (!has_won) break;
+        if (found.size() == before) break;
         run(hypotheses.size(), [&](std::size_t i) {
             scene.update(hypotheses[i], surfaces[hypotheses[i].object], is_left);
         });
