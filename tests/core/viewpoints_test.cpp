@@ -22,7 +22,7 @@ TEST(viewpoint_table, holds_view_points_of_the_cloud_the_scan_or_the_point) {
     EXPECT_EQ(per_scan[3], a);
     EXPECT_TRUE(per_scan.covers(4));
     EXPECT_FALSE(per_scan.covers(5));
-    const gnomon::viewpoint_table per_point(std::vector{a, b});
+    const gnomon::viewpoint_table per_point(std::vector<Eigen::Vector3d>{a, b});
     EXPECT_EQ(per_point[1], b);
     EXPECT_TRUE(per_point.covers(2));
     EXPECT_FALSE(per_point.covers(1));

@@ -108,9 +108,10 @@ TEST(registry, every_estimator_on_every_graph_survives_degenerate_clouds) {
     all.push_back({"sheet", clouds::sheet(60, 1)});
     all.push_back({"cube of 1e-160 m", clouds::in_cube(60, 2)});
     for (Eigen::Vector3d& p : all.back().points) p *= 1e-160;
-    for (const auto& [cloud, points] : all) {
+    for (const auto& cloud : all) {
+        const clouds::cloud& points = cloud.points;
         for_each_surface(points, [&](const std::string& name, const auto& surface) {
-            SCOPED_TRACE(name + ", " + cloud);
+            SCOPED_TRACE(name + ", " + cloud.name);
             ASSERT_EQ(surface.size(), points.size());
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const auto& s = surface[i];

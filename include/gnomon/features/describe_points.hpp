@@ -12,13 +12,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -102,21 +100,22 @@ class row_writer {
     /// @return whether all are
     [[nodiscard]] bool move_row(float* values) {
         const bool finite = with_widest([row = row_.data(), size = row_.size(), values](auto) {
-            constexpr std::size_t block = 8;   // of fixed length, for vector instructions
-            std::array<float, block> zeros{};  // NaN after a value that is not finite
+            constexpr double most = std::numeric_limits<float>::max();
+            constexpr std::size_t block = slim_pack::size;
+            constexpr std::uint32_t all = (std::uint32_t{1} << block) - 1;
+            std::uint32_t in_range = all;
             std::size_t k = 0;
             for (; k + block <= size; k += block) {
-                for (std::size_t l = 0; l < block; ++l) {
+                in_range &= at_most(magnitude(slim_pack(row + k)), most);
+                for (std::size_t l = 0; l < block; ++l)
                     values[k + l] = static_cast<float>(row[k + l]);
-                    zeros[l] += 0.0f * values[k + l];
-                }
-                for (std::size_t l = 0; l < block; ++l) row[k + l] = 0.0;
             }
             for (; k < size; ++k) {
-                values[k] = static_cast<float>(std::exchange(row[k], 0.0));
-                zeros[0] += 0.0f * values[k];
+                if (!(std::abs(row[k]) <= most)) in_range = 0;
+                values[k] = static_cast<float>(row[k]);
             }
-            return std::all_of(zeros.begin(), zeros.end(), [](float z) { return z == 0; });
+            std::fill_n(row, size, 0.0);
+            return in_range == all;
         });
         if (!finite) std::fill_n(values, row_.size(), 0.0f);
         return finite;

@@ -67,17 +67,17 @@ struct cylinder_bins {
         std::uint32_t measure(const Eigen::Vector3d& p, const Eigen::Vector3d& n,
                               std::span<const Eigen::Vector3d> neighbors) {
             std::uint32_t kept = 0;
-            std::array<Eigen::Vector3d, slim_pack::size> last;
-            for (std::size_t l = 0; l < neighbors.size(); l += slim_pack::size) {
+            std::array<Eigen::Vector3d, pack::size> last;
+            for (std::size_t l = 0; l < neighbors.size(); l += pack::size) {
                 const std::size_t rest = neighbors.size() - l;
                 const Eigen::Vector3d* first = neighbors.data() + l;
-                if (rest < slim_pack::size) {
+                if (rest < pack::size) {
                     last.fill(p);
                     std::copy_n(first, rest, last.begin());
                     first = last.data();
                 }
                 std::uint32_t bits = measure_pack(p, n, first, l);
-                if (rest < slim_pack::size) bits &= (std::uint32_t{1} << rest) - 1;
+                if (rest < pack::size) bits &= (std::uint32_t{1} << rest) - 1;
                 kept |= bits << l;
             }
             return kept;
@@ -90,16 +90,16 @@ struct cylinder_bins {
                                                             std::size_t l) {
             static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
             const double* const at = first->data();
-            const slim_pack x = slim_pack(at, stride) - p[0];
-            const slim_pack y = slim_pack(at + 1, stride) - p[1];
-            const slim_pack z = slim_pack(at + 2, stride) - p[2];
-            const slim_pack above = n[0] * x + n[1] * y + n[2] * z;
+            const pack x = pack(at, stride) - p[0];
+            const pack y = pack(at + 1, stride) - p[1];
+            const pack z = pack(at + 2, stride) - p[2];
+            const pack above = n[0] * x + n[1] * y + n[2] * z;
             // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
-            const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
-            const slim_pack c = n[0] * y - n[1] * x;
-            const slim_pack alpha2 = a * a + b * b + c * c;
-            const slim_pack across = per_radius_ * root(alpha2);
-            const slim_pack along = per_height_ * (above + most_beta_);
+            const pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
+            const pack c = n[0] * y - n[1] * x;
+            const pack alpha2 = a * a + b * b + c * c;
+            const pack across = per_radius_ * root(alpha2);
+            const pack along = per_height_ * (above + most_beta_);
             std::memcpy(&alpha[l], &across, sizeof across);
             std::memcpy(&beta[l], &along, sizeof along);
             return at_most(alpha2, most_alpha2_) & at_most(magnitude(above), most_beta_);

@@ -209,19 +209,23 @@ class leaf_list {
         const std::size_t start = leaf * lane_count;
         starts_[listed_] = static_cast<std::uint32_t>(start);
         lane_points& block = points_[listed_++];
-        for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
-        for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
-        for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
+        with_widest([&, scale = scale_](auto) {
+            // Relative to the center, in units of the list.
+            const auto convert = [&](std::size_t axis, float* to) {
+                const double* const from = tree_.at(axis) + start;
+                const double origin = origin_[axis];
+                for (std::size_t l = 0; l < lane_count; ++l)
+                    to[l] = static_cast<float>((from[l] - origin) * scale);
+            };
+            convert(0, block.x.at);
+            convert(1, block.y.at);
+            convert(2, block.z.at);
+        });
         const std::size_t size = std::min(lane_count, tree_.size() - start);
         std::uint32_t missing = ~(~std::uint32_t{0} >> (lane_count - size));
         if (among_ != nullptr) missing |= ~among_->of_leaf(leaf);
         for (; missing != 0; missing &= missing - 1)
             block.set(static_cast<std::size_t>(std::countr_zero(missing)), {far_, far_, far_});
-    }
-
-    /// A coordinate relative to the center, in units of the list.
-    [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
-        return static_cast<float>((coordinate - origin_[axis]) * scale_);
     }
 
     static constexpr float far_ = std::numeric_limits<float>::infinity();

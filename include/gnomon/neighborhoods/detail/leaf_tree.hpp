@@ -127,17 +127,25 @@ class leaf_tree {
         std::array<subtree, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
         std::size_t depth = 0;
         const double limit = distance * distance * (1.0 + 1e-12);
+        const auto is_near = [&](const subtree& t) {
+            return boxes_[t.node].squared_distance_to(box) <= limit;
+        };
+        if (!is_near(root())) return;
         stack[depth++] = root();
         while (depth > 0) {
-            const subtree t = stack[--depth];
-            if (!(boxes_[t.node].squared_distance_to(box) <= limit)) continue;
-            if (t.is_leaf()) {
-                visit(t.first, boxes_[t.node]);
-                continue;
+            subtree t = stack[--depth];
+            for (bool inside = true; inside;) {
+                if (t.is_leaf()) {
+                    visit(t.first, boxes_[t.node]);
+                    break;
+                }
+                const auto [left, right] = t.children();
+                const bool right_too = is_near(right);
+                inside = is_near(left);
+                if (inside && right_too) stack[depth++] = right;
+                t = inside ? left : right;
+                inside |= right_too;
             }
-            const auto [left, right] = t.children();
-            stack[depth++] = right;
-            stack[depth++] = left;
         }
     }
 
