@@ -48,19 +48,20 @@ class surface_node {
   public:
     sensor_msgs::msg::PointCloud2 on_cloud(const sensor_msgs::msg::PointCloud2& message) {
         const auto points = gnomon::point_cloud2_points(message);  // no copy
-        const auto seen = chain_(points, threads_);
+        chain_.into(seen_, points, threads_);  // in the memory of the last message
 
         using namespace gnomon::io;
         sensor_msgs::msg::PointCloud2 result;
         result.header = message.header;
         gnomon::fill_point_cloud2(
             result, points,
-            {normal_properties(seen.surface), label_properties(seen.surfaces.labels())});
+            {normal_properties(seen_.surface), label_properties(seen_.surfaces.labels())});
         return result;  // x y z normal_x normal_y normal_z label rgb
     }
 
   private:
     gnomon::perception<> chain_;
+    gnomon::perception_result<> seen_;
     gnomon::team threads_;
 };
 // [point_cloud2]

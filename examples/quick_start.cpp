@@ -30,9 +30,8 @@ int main(int argc, char** argv) try {
     for (std::size_t label = 0; label < seen.surfaces.size(); ++label) {
         const gnomon::plane_estimate& e = seen.planes[label];
         const Eigen::Vector3d& n = e.plane.normal;  // unit length
-        std::printf("surface %zu: %zu points, %s, normal (%.2f, %.2f, %.2f)\n", label,
-                    seen.surfaces[label].size(), e.is_flat ? "flat" : "curved", n.x(), n.y(),
-                    n.z());
+        std::printf("surface %zu: %zu points, %zu on its plane, normal (%.2f, %.2f, %.2f)\n", label,
+                    seen.surfaces[label].size(), e.points, n.x(), n.y(), n.z());
     }
 } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/help.hpp"
+#include <gnomon/features/minimum_area_rectangle.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -59,6 +60,18 @@ int main(int argc, char** argv) {
                     3.0 * tilt.degrees());  // three standard deviations
     }
     // [read_plane]
+
+    // [size_of_plane]
+    // #include <gnomon/features/minimum_area_rectangle.hpp>
+    const auto estimates = gnomon::estimate_planes(scan, flat, noise);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        const gnomon::subset_view part(scan, flat[i]);
+        const auto outline = gnomon::convex_polygon::of(part, estimates[i].plane);
+        const auto lengths = gnomon::minimum_area_rectangle(outline).lengths;
+        std::printf("%.2f m x %.2f m, within an outline of %.2f m^2\n", lengths[0], lengths[1],
+                    outline.area);
+    }
+    // [size_of_plane]
 
     // [plane_of_segment]
     const gnomon::segments parts = gnomon::segment_surfaces(scan, surface);

@@ -142,7 +142,7 @@ row wasm32-wasi "headers corner refused $floors" clang++-16 --target=wasm32-wasi
     -fno-exceptions -DGTEST_HAS_PTHREAD=0 -DGTEST_HAS_STREAM_REDIRECTION=0
 
 export WINEDEBUG=-all
-without='|unistd' run=wine
+without='|unistd|aligned_alloc' run=wine
 row mingw-w64 "headers corner $examples $floors" x86_64-w64-mingw32-g++-posix -static
 row mingw-w64-windows.h headers x86_64-w64-mingw32-g++-posix -DNOMINMAX -include windows.h
 without='' run="qemu-aarch64 -L /usr/aarch64-linux-gnu"

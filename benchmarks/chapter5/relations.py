@@ -384,6 +384,31 @@ def known_models(tables):
             of_class["top 1"] >= 0.98 and of_model["top 1"] >= 0.93)
 
 
+# What was not learned.
+
+def withheld(tables, measure):
+    values = [r[measure] for r in tables["two models withheld, means of six pairs"]]
+    return f"{measure} {median(values):.3f} (worst seed {min(values):.3f})", median(values)
+
+
+@relation("unknown", "5.u.1", "two of twelve models withheld: AUROC of novelty 0.95 or more", OWN)
+def novelty(tables):
+    text, middle = withheld(tables, "AUROC")
+    return text, middle >= 0.95
+
+
+@relation("unknown", "5.u.2", "groups of the rejected views: V-measure 0.8 or more", OWN)
+def discovery(tables):
+    text, middle = withheld(tables, "V-measure")
+    return text, middle >= 0.8
+
+
+@relation("unknown", "5.u.3", "fallen chairs, learned upright, by invariant features: 0.6 or more are certain, and called chairs", OWN)
+def fallen_chairs(tables):
+    found = row(tables["fallen furniture"], learned="upright", features="invariant", names="classes", views="of chairs")
+    return with_worst(found, "right", "precision"), found["right"] >= 0.6
+
+
 # Whole rooms.
 
 def method_in(tables, rooms, method):

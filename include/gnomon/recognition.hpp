@@ -4,6 +4,7 @@
 /// features and relations, and what they show. Included by name: it needs Boost.Hana.
 #pragma once
 
+#include <gnomon/recognition/average_linkage.hpp>
 #include <gnomon/recognition/calibration.hpp>
 #include <gnomon/recognition/cluster.hpp>
 #include <gnomon/recognition/greedy_means.hpp>
@@ -23,6 +24,7 @@
 #include <gnomon/recognition/view.hpp>
 #include <gnomon/recognition/view_augmentation.hpp>
 #include <gnomon/recognition/view_descriptor.hpp>
+#include <gnomon/recognition/view_novelty.hpp>
 #include <gnomon/recognition/views_of.hpp>
 #include <gnomon/recognition/vocabulary.hpp>
 #include <gnomon/recognition/weighted_distance.hpp>

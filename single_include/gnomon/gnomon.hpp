@@ -3120,7 +3120,8 @@ struct leaf_box {
     [[nodiscard]] double squared_distance_to(const leaf_box& other) const {
         double sum = 0.0;
         for (std::size_t a = 0; a < 3; ++a) {
-            const double gap = std::max({other.low[a] - high[a], low[a] - other.high[a], 0.0});
+            const double gap =
+                std::max(std::max(other.low[a] - high[a], low[a] - other.high[a]), 0.0);
             sum += gap * gap;
         }
         return sum;
@@ -3277,17 +3278,25 @@ class leaf_tree {
         std::array<subtree, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
         std::size_t depth = 0;
         const double limit = distance * distance * (1.0 + 1e-12);
+        const auto is_near = [&](const subtree& t) {
+            return boxes_[t.node].squared_distance_to(box) <= limit;
+        };
+        if (!is_near(root())) return;
         stack[depth++] = root();
         while (depth > 0) {
-            const subtree t = stack[--depth];
-            if (!(boxes_[t.node].squared_distance_to(box) <= limit)) continue;
-            if (t.is_leaf()) {
-                visit(t.first, boxes_[t.node]);
-                continue;
+            subtree t = stack[--depth];
+            for (bool inside = true; inside;) {
+                if (t.is_leaf()) {
+                    visit(t.first, boxes_[t.node]);
+                    break;
+                }
+                const auto [left, right] = t.children();
+                const bool right_too = is_near(right);
+                inside = is_near(left);
+                if (inside && right_too) stack[depth++] = right;
+                t = inside ? left : right;
+                inside |= right_too;
             }
-            const auto [left, right] = t.children();
-            stack[depth++] = right;
-            stack[depth++] = left;
         }
     }
 
@@ -5173,19 +5182,23 @@ class leaf_list {
         const std::size_t start = leaf * lane_count;
         starts_[listed_] = static_cast<std::uint32_t>(start);
         lane_points& block = points_[listed_++];
-        for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
-        for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
-        for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
+        with_widest([&, scale = scale_](auto) {
+            // Relative to the center, in units of the list.
+            const auto convert = [&](std::size_t axis, float* to) {
+                const double* const from = tree_.at(axis) + start;
+                const double origin = origin_[axis];
+                for (std::size_t l = 0; l < lane_count; ++l)
+                    to[l] = static_cast<float>((from[l] - origin) * scale);
+            };
+            convert(0, block.x.at);
+            convert(1, block.y.at);
+            convert(2, block.z.at);
+        });
         const std::size_t size = std::min(lane_count, tree_.size() - start);
         std::uint32_t missing = ~(~std::uint32_t{0} >> (lane_count - size));
         if (among_ != nullptr) missing |= ~among_->of_leaf(leaf);
         for (; missing != 0; missing &= missing - 1)
             block.set(static_cast<std::size_t>(std::countr_zero(missing)), {far_, far_, far_});
-    }
-
-    /// A coordinate relative to the center, in units of the list.
-    [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
-        return static_cast<float>((coordinate - origin_[axis]) * scale_);
     }
 
     static constexpr float far_ = std::numeric_limits<float>::infinity();
@@ -24540,21 +24553,22 @@ class row_writer {
     /// @return whether all are
     [[nodiscard]] bool move_row(float* values) {
         const bool finite = with_widest([row = row_.data(), size = row_.size(), values](auto) {
-            constexpr std::size_t block = 8;   // of fixed length, for vector instructions
-            std::array<float, block> zeros{};  // NaN after a value that is not finite
+            constexpr double most = std::numeric_limits<float>::max();
+            constexpr std::size_t block = slim_pack::size;
+            constexpr std::uint32_t all = (std::uint32_t{1} << block) - 1;
+            std::uint32_t in_range = all;
             std::size_t k = 0;
             for (; k + block <= size; k += block) {
-                for (std::size_t l = 0; l < block; ++l) {
+                in_range &= at_most(magnitude(slim_pack(row + k)), most);
+                for (std::size_t l = 0; l < block; ++l)
                     values[k + l] = static_cast<float>(row[k + l]);
-                    zeros[l] += 0.0f * values[k + l];
-                }
-                for (std::size_t l = 0; l < block; ++l) row[k + l] = 0.0;
             }
             for (; k < size; ++k) {
-                values[k] = static_cast<float>(std::exchange(row[k], 0.0));
-                zeros[0] += 0.0f * values[k];
+                if (!(std::abs(row[k]) <= most)) in_range = 0;
+                values[k] = static_cast<float>(row[k]);
             }
-            return std::all_of(zeros.begin(), zeros.end(), [](float z) { return z == 0; });
+            std::fill_n(row, size, 0.0);
+            return in_range == all;
         });
         if (!finite) std::fill_n(values, row_.size(), 0.0f);
         return finite;
@@ -24733,17 +24747,17 @@ struct cylinder_bins {
         std::uint32_t measure(const Eigen::Vector3d& p, const Eigen::Vector3d& n,
                               std::span<const Eigen::Vector3d> neighbors) {
             std::uint32_t kept = 0;
-            std::array<Eigen::Vector3d, slim_pack::size> last;
-            for (std::size_t l = 0; l < neighbors.size(); l += slim_pack::size) {
+            std::array<Eigen::Vector3d, pack::size> last;
+            for (std::size_t l = 0; l < neighbors.size(); l += pack::size) {
                 const std::size_t rest = neighbors.size() - l;
                 const Eigen::Vector3d* first = neighbors.data() + l;
-                if (rest < slim_pack::size) {
+                if (rest < pack::size) {
                     last.fill(p);
                     std::copy_n(first, rest, last.begin());
                     first = last.data();
                 }
                 std::uint32_t bits = measure_pack(p, n, first, l);
-                if (rest < slim_pack::size) bits &= (std::uint32_t{1} << rest) - 1;
+                if (rest < pack::size) bits &= (std::uint32_t{1} << rest) - 1;
                 kept |= bits << l;
             }
             return kept;
@@ -24756,16 +24770,16 @@ struct cylinder_bins {
                                                             std::size_t l) {
             static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
             const double* const at = first->data();
-            const slim_pack x = slim_pack(at, stride) - p[0];
-            const slim_pack y = slim_pack(at + 1, stride) - p[1];
-            const slim_pack z = slim_pack(at + 2, stride) - p[2];
-            const slim_pack above = n[0] * x + n[1] * y + n[2] * z;
+            const pack x = pack(at, stride) - p[0];
+            const pack y = pack(at + 1, stride) - p[1];
+            const pack z = pack(at + 2, stride) - p[2];
+            const pack above = n[0] * x + n[1] * y + n[2] * z;
             // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
-            const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
-            const slim_pack c = n[0] * y - n[1] * x;
-            const slim_pack alpha2 = a * a + b * b + c * c;
-            const slim_pack across = per_radius_ * root(alpha2);
-            const slim_pack along = per_height_ * (above + most_beta_);
+            const pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
+            const pack c = n[0] * y - n[1] * x;
+            const pack alpha2 = a * a + b * b + c * c;
+            const pack across = per_radius_ * root(alpha2);
+            const pack along = per_height_ * (above + most_beta_);
             std::memcpy(&alpha[l], &across, sizeof across);
             std::memcpy(&beta[l], &along, sizeof along);
             return at_most(alpha2, most_alpha2_) & at_most(magnitude(above), most_beta_);

@@ -60,6 +60,22 @@ TEST(random_trees, come_near_the_best_rule_where_classes_overlap) {
     EXPECT_LT(accuracy, 0.88);
 }
 
+TEST(random_trees, use_the_columns_that_separate) {
+    const rec::random_trees trees(tree_samples(150, 3, 6.0, 1), 3, {.trees = 60});
+    const auto use = trees.use_of_columns(6);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < use.size(); ++k) {
+        sum += use[k];
+        if (k == 1 || k == 4) continue;
+        EXPECT_LT(10.0 * use[k], std::min(use[1], use[4])) << k;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    rec::labeled_samples same;
+    same.add(std::vector<double>(2, 1.0), 0);
+    same.add(std::vector<double>(2, 1.0), 1);
+    EXPECT_EQ(rec::random_trees(same, 2).use_of_columns(2), std::vector<double>(2, 0.0));
+}
+
 TEST(random_trees, fit_their_own_samples) {
     const auto s = tree_samples(100, 4, 0.2, 3);
     EXPECT_EQ(tree_accuracy(rec::random_trees(s, 4, {.trees = 20}), s), 1.0);

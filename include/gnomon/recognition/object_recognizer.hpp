@@ -32,6 +32,7 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/recognition/calibration.hpp>
 #include <gnomon/recognition/detail/cross_validation.hpp>
 #include <gnomon/recognition/detail/interaction_terms.hpp>
 #include <gnomon/recognition/greedy_means.hpp>
@@ -101,10 +102,11 @@ class object_recognizer {
         gnomon::detail::require(learned_.names.size() > 1,
                                 "object_recognizer: two classes must be learned first");
         const auto& team = gnomon::detail::staying(run);
-        const auto options = learned_.tree_options(descriptor_type::pair_columns);
-        const double temperature = detail::cross_validated_temperature(
-            learned_.samples, learned_.sources, classes(), options, team);
-        trees_ = random_trees(learned_.samples, classes(), options, team);
+        const double temperature =
+            fit_temperature(detail::left_out_log_probabilities(learned_.samples, learned_.sources,
+                                                               classes(), tree_options(), team),
+                            learned_.samples.classes);
+        trees_ = random_trees(learned_.samples, classes(), tree_options(), team);
         learned_.temperature = temperature;  // of these trees: not if growing them is cancelled
     }
 
@@ -112,6 +114,10 @@ class object_recognizer {
     [[nodiscard]] const std::vector<std::string>& names() const { return learned_.names; }
     [[nodiscard]] const content& learned() const { return learned_; }  ///< what a file holds
     [[nodiscard]] const descriptor_type& descriptor() const { return descriptor_; }  ///< of views
+    /// Of the trees that fit() grows.
+    [[nodiscard]] random_trees_options tree_options() const {
+        return learned_.tree_options(descriptor_type::pair_columns);
+    }
     /// Temperature, P_d, and the class of other things.
     [[nodiscard]] decide_options decision_options() const {
         const auto at = std::find(names().begin(), names().end(), background_name);
@@ -171,7 +177,19 @@ class object_recognizer {
     /// The sum of the terms, without them. Errors as above. O(parts^2 + trees * depth).
     [[nodiscard]] std::vector<double> log_likelihood(const view& v) const {
         require_fitted();
-        return log_likelihood_of(descriptor_(v));
+        return trees_.log_probability(described(v));
+    }
+
+    /// The description of a view as the trees get it.
+    /// @throws std::invalid_argument  if a feature needs the ground and the view has none
+    [[nodiscard]] std::vector<double> described(const view& v) const {
+        return rounded(descriptor_(v));
+    }
+    /// How much the trees use each number of a description; the sum is 1.
+    /// @throws std::invalid_argument  before fit()
+    [[nodiscard]] std::vector<double> use_of_columns() const {
+        require_fitted();
+        return trees_.use_of_columns(learned_.samples.columns);
     }
 
     /// The decision on a view, without its evidence, and with it.

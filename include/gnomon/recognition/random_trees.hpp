@@ -86,6 +86,27 @@ class random_trees {
         return p;
     }
 
+    /// How much the trees use each column: a node at depth d counts 2^-d. The sum is 1, or 0 if all
+    /// trees are leaves. O(nodes).
+    /// @param columns  of the samples that the trees were grown on
+    [[nodiscard]] std::vector<double> use_of_columns(std::size_t columns) const {
+        std::vector<double> use(columns, 0.0);
+        double sum = 0.0;
+        for (const tree& t : trees_) {
+            std::vector<double> share(t.nodes.size(), 1.0);
+            for (std::size_t at = 0; at < t.nodes.size(); ++at) {
+                const node& n = t.nodes[at];
+                if (n.is_leaf()) continue;
+                share[at + 1] = share[n.other] = 0.5 * share[at];
+                use[n.feature] += share[at];
+                sum += share[at];
+            }
+        }
+        if (sum > 0.0)
+            for (double& u : use) u /= sum;
+        return use;
+    }
+
   private:
     static constexpr std::uint32_t leaf_mark = 0xffffffff;
 

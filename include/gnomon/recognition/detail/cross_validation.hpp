@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The temperature of trees, from views that each set of trees was not grown on.
+/// What trees say of samples that they were not grown on.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,17 @@
 #include <span>
 #include <vector>
 
-#include <gnomon/recognition/calibration.hpp>
+#include <gnomon/recognition/labeled_samples.hpp>
 #include <gnomon/recognition/random_trees.hpp>
 
 namespace gnomon::recognition::detail {
 
-/// The temperature of the largest likelihood of the samples, in four folds: all samples of one
-/// source are left out together.
+/// The log-probabilities of each sample by trees that were not grown on it, in four folds: all
+/// samples of one source are left out together. Empty where all samples are of one fold.
 /// Complexity: that of the trees, four times.
-[[nodiscard]] double cross_validated_temperature(const labeled_samples& samples,
-                                                 std::span<const std::uint32_t> sources,
-                                                 std::size_t classes,
-                                                 const random_trees_options& options,
-                                                 const auto& run) {
+[[nodiscard]] std::vector<std::vector<double>> left_out_log_probabilities(
+    const labeled_samples& samples, std::span<const std::uint32_t> sources, std::size_t classes,
+    const random_trees_options& options, const auto& run) {
     constexpr std::uint32_t folds = 4;
     std::vector<std::vector<double>> left_out(samples.rows());
     for (std::uint32_t fold = 0; fold < folds; ++fold) {
@@ -32,7 +30,7 @@ namespace gnomon::recognition::detail {
         for (std::size_t i = 0; i < left_out.size(); ++i)
             if (sources[i] % folds == fold) left_out[i] = trees.log_probability(samples.row(i));
     }
-    return fit_temperature(left_out, samples.classes);
+    return left_out;
 }
 
 }  // namespace gnomon::recognition::detail
