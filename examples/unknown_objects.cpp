@@ -36,7 +36,7 @@ std::vector<rec::view> views_of_model(const sim::furniture_model& model, std::si
 
 int main(int argc, char** argv) {
     if (printed_help(argc, argv,
-                     "Groups views of furniture that was never learned, and learns it."))
+                     "Groups views of furniture that was never learned, and adds it to a model."))
         return 0;
     const auto models = sim::furniture_models();
     const std::size_t desk = 9, armchair = 5;  // these are unknown at first

@@ -50,7 +50,7 @@ struct segment {
     }
 };
 
-/// A wall of 4 m x 2.5 m with a door of 1 m x 2 m.
+/// A wall of 4 m x 2.5 m with an opening of 1 m x 2 m.
 segment wall_of(std::size_t n) {
     random_stream random(1);
     segment s;

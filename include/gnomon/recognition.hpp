@@ -20,6 +20,7 @@
 #include <gnomon/recognition/part_relation.hpp>
 #include <gnomon/recognition/posterior.hpp>
 #include <gnomon/recognition/random_trees.hpp>
+#include <gnomon/recognition/random_trees_options.hpp>
 #include <gnomon/recognition/relation_words.hpp>
 #include <gnomon/recognition/view.hpp>
 #include <gnomon/recognition/view_augmentation.hpp>

@@ -51,7 +51,7 @@ TEST(view_novelty, is_large_for_what_was_never_learned) {
     EXPECT_EQ(without_shelves()(some_views::empty_view()), 1.0);
 }
 
-/// Fresh views of what is known are as novel as learned views that were left out: their mean is
+/// Fresh views of known objects are as novel as learned views that were left out: their mean is
 /// that of a uniform number within four standard deviations.
 TEST(view_novelty, is_about_uniform_for_what_is_known) {
     double sum = 0.0;
@@ -132,7 +132,7 @@ TEST(view_novelty, refuses_recognizers_that_are_not_fitted_and_views_without_gro
     EXPECT_THROW((void)without_shelves().groups_of({&airborne, 1}), std::invalid_argument);
 }
 
-/// Sources of a file may all be of one fold: then no view was left out.
+/// Sources of a file may all belong to the same fold: then no view was left out.
 TEST(view_novelty, of_a_file_whose_sources_are_of_one_fold) {
     auto learned = without_shelves().model().learned();
     for (std::uint32_t& s : learned.sources) s *= 4;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,7 +16,9 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/recognition/cluster.hpp>
 #include <gnomon/recognition/labeled_samples.hpp>
-#include <gnomon/recognition/random_trees.hpp>
+#include <gnomon/recognition/posterior.hpp>
+#include <gnomon/recognition/random_trees_options.hpp>
+#include <gnomon/recognition/weighted_distance.hpp>
 
 namespace gnomon::recognition {
 
@@ -78,6 +81,21 @@ struct learned_views {
         for (const auto& w : words)
             require(w.count > 0 && detail::is_finite_cluster(w),
                     "object_recognizer: a word is not finite");
+    }
+
+    /// The number of the word whose mean is nearest; that of no term if there are none. O(words).
+    [[nodiscard]] std::size_t nearest_word(const std::array<double, D>& sample,
+                                           const weighted_distance<D>& distance) const {
+        std::size_t nearest = term::none;
+        double least = 0.0;
+        for (std::size_t w = 0; w < words.size(); ++w) {
+            const double d = distance(words[w].mean, sample);
+            if (nearest == term::none || d < least) {
+                nearest = w;
+                least = d;
+            }
+        }
+        return nearest;
     }
 
     /// The number of a class, which is new if none has this name.

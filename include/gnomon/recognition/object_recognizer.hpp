@@ -114,6 +114,7 @@ class object_recognizer {
     [[nodiscard]] const std::vector<std::string>& names() const { return learned_.names; }
     [[nodiscard]] const content& learned() const { return learned_; }  ///< what a file holds
     [[nodiscard]] const descriptor_type& descriptor() const { return descriptor_; }  ///< of views
+    [[nodiscard]] const random_trees& trees() const { return trees_; }  ///< none before fit()
     /// Of the trees that fit() grows.
     [[nodiscard]] random_trees_options tree_options() const {
         return learned_.tree_options(descriptor_type::pair_columns);
@@ -166,7 +167,8 @@ class object_recognizer {
                                                 -std::log(static_cast<double>(classes())));
         std::vector<term> terms = detail::interaction_terms(n + 1, equal_classes, f);
         for (term& t : terms) {
-            if (t.kind == term_kind::part && t.first < n) t.word = nearest_word(m.parts[t.first]);
+            if (t.kind == term_kind::part && t.first < n)
+                t.word = learned_.nearest_word(m.parts[t.first], word_options().distance);
             if (t.kind == term_kind::part && t.first == n) t.kind = term_kind::rest;
             if (t.first == n) t.first = term::none;
             if (t.second == n) t.second = term::none;
@@ -184,12 +186,6 @@ class object_recognizer {
     /// @throws std::invalid_argument  if a feature needs the ground and the view has none
     [[nodiscard]] std::vector<double> described(const view& v) const {
         return rounded(descriptor_(v));
-    }
-    /// How much the trees use each number of a description; the sum is 1.
-    /// @throws std::invalid_argument  before fit()
-    [[nodiscard]] std::vector<double> use_of_columns() const {
-        require_fitted();
-        return trees_.use_of_columns(learned_.samples.columns);
     }
 
     /// The decision on a view, without its evidence, and with it.
@@ -243,21 +239,6 @@ class object_recognizer {
 
     [[nodiscard]] std::vector<double> log_likelihood_of(std::vector<double> sample) const {
         return trees_.log_probability(rounded(std::move(sample)));
-    }
-
-    [[nodiscard]] std::size_t nearest_word(
-        const std::array<double, features_per_part>& sample) const {
-        const weighted_distance<features_per_part> distance = word_options().distance;
-        std::size_t nearest = term::none;
-        double least = 0.0;
-        for (std::size_t w = 0; w < learned_.words.size(); ++w) {
-            const double d = distance(learned_.words[w].mean, sample);
-            if (nearest == term::none || d < least) {
-                nearest = w;
-                least = d;
-            }
-        }
-        return nearest;
     }
 
     descriptor_type descriptor_;

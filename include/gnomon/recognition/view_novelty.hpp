@@ -11,7 +11,7 @@
 ///     model.fit();
 ///
 /// A view is novel if the trees do not agree on a class, or if it is far from all learned views.
-/// Neither suffices: trees are certain of what is far off, and between two similar classes they
+/// Neither suffices: trees are certain far from all views, and between two similar classes they
 /// disagree. Views are compared by their descriptions, in which a number weighs as much as the
 /// trees use it.
 #pragma once
@@ -46,6 +46,8 @@ class view_novelty {
     /// Complexity: that of the trees, four times, and O(n^2) for n learned views.
     template <execution X = sequential>
     explicit view_novelty(Recognizer model, const X& run = {}) : model_(std::move(model)) {
+        gnomon::detail::require(model_.trees().classes() > 0,
+                                "view_novelty: the recognizer must be fitted first");
         const auto& learned = model_.learned();
         const auto& team = gnomon::detail::staying(run);
         weigh_columns();
@@ -68,7 +70,7 @@ class view_novelty {
 
     /// The share of learned views, without those of which a part was hidden, that are less novel
     /// than this one, each compared with the views of all other scans: in [0, 1], and about
-    /// uniform for fresh views of what was learned.
+    /// uniform for fresh views of learned objects.
     /// @throws std::invalid_argument  if a feature needs the ground and the view has none
     /// Complexity: O(n) for n learned views, and that of a decision.
     [[nodiscard]] double operator()(const view& v) const {
@@ -103,7 +105,7 @@ class view_novelty {
 
     void weigh_columns() {
         const labeled_samples& samples = model_.learned().samples;
-        weights_ = model_.use_of_columns();
+        weights_ = model_.trees().use_of_columns(samples.columns);
         const auto n = static_cast<double>(samples.rows());
         for (std::size_t k = 0; k < samples.columns; ++k) {
             double sum = 0.0, squares = 0.0;

@@ -209,17 +209,11 @@ class leaf_list {
         const std::size_t start = leaf * lane_count;
         starts_[listed_] = static_cast<std::uint32_t>(start);
         lane_points& block = points_[listed_++];
-        with_widest([&, scale = scale_](auto) {
-            // Relative to the center, in units of the list.
-            const auto convert = [&](std::size_t axis, float* to) {
-                const double* const from = tree_.at(axis) + start;
-                const double origin = origin_[axis];
+        with_widest([&, scale = scale_](auto) {  // relative to the center, in units of the list
+            const std::array to{block.x.at, block.y.at, block.z.at};
+            for (std::size_t a = 0; a < 3; ++a)
                 for (std::size_t l = 0; l < lane_count; ++l)
-                    to[l] = static_cast<float>((from[l] - origin) * scale);
-            };
-            convert(0, block.x.at);
-            convert(1, block.y.at);
-            convert(2, block.z.at);
+                    to[a][l] = static_cast<float>((tree_.at(a)[start + l] - origin_[a]) * scale);
         });
         const std::size_t size = std::min(lane_count, tree_.size() - start);
         std::uint32_t missing = ~(~std::uint32_t{0} >> (lane_count - size));

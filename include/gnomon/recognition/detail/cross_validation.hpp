@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What trees say of samples that they were not grown on.
+/// Probabilities by trees that were not grown on the samples in question.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace gnomon::recognition::detail {
 
 /// The log-probabilities of each sample by trees that were not grown on it, in four folds: all
-/// samples of one source are left out together. Empty where all samples are of one fold.
+/// samples of one source are left out together. Empty where all samples belong to the same fold.
 /// Complexity: that of the trees, four times.
 [[nodiscard]] std::vector<std::vector<double>> left_out_log_probabilities(
     const labeled_samples& samples, std::span<const std::uint32_t> sources, std::size_t classes,
