@@ -189,7 +189,7 @@ struct places {
         std::map<std::int32_t, std::size_t> of_surface;
         constexpr std::size_t trials = 20'000, most = 300, most_of_surface = 10;
         for (std::size_t t = 0; t < trials && keys[0].size() < most; ++t) {
-            const auto i = static_cast<gnomon::point_index>(random.bits() % a.scan.size());
+            const auto i = static_cast<gnomon::point_index>(random.below(a.scan.size()));
             const std::int32_t surface = a.surfaces[i];
             if (surface == sim::nothing || of_surface[surface] == most_of_surface) continue;
             if (!is_distinctive(a, of_a, i)) continue;
@@ -202,7 +202,7 @@ struct places {
         for (std::size_t k = 0; k < keys[0].size(); ++k) {
             pairs.same.emplace_back(k, k);
             for (int other = 0; other < 4; ++other) {
-                const std::size_t l = random.bits() % keys[0].size();
+                const std::size_t l = random.below(keys[0].size());
                 if (a.surfaces[keys[0][k]] != a.surfaces[keys[0][l]])
                     pairs.different.emplace_back(k, l);
             }

@@ -176,7 +176,7 @@ std::vector<std::size_t> ground_of(const gnomon::scan& scan) {
     Eigen::Vector3d normal(0.0, 0.0, 1.0), through(0.0, 0.0, 0.0);
     std::ptrdiff_t most = 0;
     for (int trial = 0; trial < 500; ++trial) {
-        const auto draw = [&] { return scan.points[low[random.bits() % low.size()]]; };
+        const auto draw = [&] { return scan.points[low[random.below(low.size())]]; };
         const Eigen::Vector3d a = draw(), b = draw(), c = draw();
         Eigen::Vector3d n = (b - a).cross(c - a);
         if (n.norm() < 1.0 || std::abs(n.normalized().z()) < 0.95) continue;

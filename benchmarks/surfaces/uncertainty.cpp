@@ -93,8 +93,7 @@ void measure_into(std::vector<line>& lines, const known_scan& s, std::size_t k, 
     std::vector<std::size_t> order(s.scan.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     gnomon::random_stream random(s.scan.size());
-    for (std::size_t i = order.size(); i > 1; --i)
-        std::swap(order[i - 1], order[random.bits() % i]);
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
 
     std::array<tally, estimators.size()> tallies;
     std::array<double, 2> squares{};  // of the errors of plane_eif and plane_pca

@@ -1289,6 +1289,9 @@ class random_stream {
     /// A number uniform in [0, 2^64).
     std::uint64_t bits() { return mix(state_ += 0x9e3779b97f4a7c15u); }
 
+    /// A number uniform in 0, 1, ... n - 1, up to a bias of n / 2^64. Precondition: n > 0.
+    std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
+
     /// A number uniform in [0, 1), a multiple of 2^-53.
     double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
@@ -11872,8 +11875,8 @@ class seen_points {
         double least = std::numeric_limits<double>::infinity();
         auto needed = static_cast<double>(trials);
         for (int drawn = 0, compared = 0; drawn < trials && compared < needed; ++drawn) {
-            const Vector a = difference(at(random.bits() % size()), x_);
-            const Vector b = difference(at(random.bits() % size()), x_);
+            const Vector a = difference(at(random.below(size())), x_);
+            const Vector b = difference(at(random.below(size())), x_);
             const Vector n = cross(a, b);
             const double area = length(n);
             constexpr double elongated = 0.2;  // the sine of 12 degrees: performance only
@@ -12093,9 +12096,9 @@ struct sample_consensus {
         plane best;
         double least = std::numeric_limits<double>::infinity();
         for (int trial = 0; trial < trials; ++trial) {
-            const Eigen::Vector3d a = offset(random.bits() % n);
-            const Eigen::Vector3d b = offset(random.bits() % n);
-            const Eigen::Vector3d c = offset(random.bits() % n);
+            const Eigen::Vector3d a = offset(random.below(n));
+            const Eigen::Vector3d b = offset(random.below(n));
+            const Eigen::Vector3d c = offset(random.below(n));
             const Eigen::Vector3d normal = cross(difference(b, a), difference(c, a));
             const double size = length(normal);
             if (!(size > 0.0) || !std::isfinite(size)) continue;  // collinear
@@ -32757,7 +32760,7 @@ namespace detail {
 [[nodiscard]] inline scene cartons(random_stream& random) {
     scene piece;
     const auto object = piece.add_object("carton");
-    const auto count = 1 + random.bits() % 3;
+    const auto count = 1 + random.below(3);
     double length = random.uniform(0.30, 0.60), width = random.uniform(0.25, 0.45), low = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
         const double height = count == 1 ? random.uniform(0.30, 0.60) : random.uniform(0.18, 0.38);
@@ -32982,8 +32985,8 @@ struct room_openings {
     /// @param piece  of furniture that touches walls
     room_openings(const bounds& room, const bounds& piece, random_stream random)
         : thickness(random.uniform(0.12, 0.36)) {
-        const auto doors = 1 + random.bits() % 2;
-        const auto windows = 1 + random.bits() % 3;
+        const auto doors = 1 + random.below(2);
+        const auto windows = 1 + random.below(3);
         const double height = room.size().z();
         for (std::uint64_t i = 0; i < doors; ++i) add(door(height, random), room, piece, random);
         for (std::uint64_t i = 0; i < windows; ++i)
@@ -33030,7 +33033,7 @@ struct room_openings {
         const auto places = walls_of(room);
         const double width = o.hole.width();
         for (int trial = 0; trial < 50; ++trial) {
-            o.wall = static_cast<std::size_t>(random.bits() % places.size());
+            o.wall = random.below(places.size());
             const double most = 0.5 * places[o.wall].length - 0.25;
             o.hole.left = random.uniform(-most, most - width);
             o.hole.right = o.hole.left + width;
@@ -33237,7 +33240,7 @@ struct standing_piece {
 /// The way from a piece to a place at its side.
 [[nodiscard]] inline angle side_of(const standing_piece& piece, random_stream& random) {
     return radians(piece.place.heading.radians() +
-                   degrees(90.0 * static_cast<double>(random.bits() % 4)).radians());
+                   degrees(90.0 * static_cast<double>(random.below(4))).radians());
 }
 
 /// The floor of a room and the pieces on it.
@@ -33283,7 +33286,7 @@ class room_layout {
     /// @param gap     between piece and wall [m]
     [[nodiscard]] floor_place at_wall(const own_boxes& own, angle turned, double gap,
                                       random_stream& random) const {
-        const auto wall = random.bits() % 3;
+        const auto wall = random.below(3);
         const angle inward = degrees(wall == 0 ? 90.0 : wall == 1 ? -90.0 : 180.0);
         floor_place place;
         place.heading = radians(inward.radians() + turned.radians());
@@ -33357,12 +33360,11 @@ inline constexpr double least_contact = 0.0004;  // [m]; numerical
     constexpr double from_sensor = 0.7;  // [m]
     const bool is_chair = std::holds_alternative<chair>(model.piece);
     for (int trial = 0; trial < trials; ++trial) {
-        const angle turned =
-            degrees(is_chair ? 0.0 : 90.0 * static_cast<double>(random.bits() % 4));
+        const angle turned = degrees(is_chair ? 0.0 : 90.0 * static_cast<double>(random.below(4)));
         const bool is_at_piece = random.uniform() < 0.6;
         std::optional<floor_place> place;
         if (is_at_piece && !others.empty()) {
-            const standing_piece& other = others[random.bits() % others.size()];
+            const standing_piece& other = others[random.below(others.size())];
             const angle way = side_of(other, random);
             const angle heading =
                 radians(way.radians() + degrees(180).radians() + turned.radians());
@@ -33400,7 +33402,7 @@ inline void add_clutter(scene& world, room_layout layout,
             if (at_wall) {
                 place = layout.at_wall(own, degrees(0), random.uniform(0.01, 0.05), random);
             } else if (at_furniture) {
-                const standing_piece& other = furniture[random.bits() % furniture.size()];
+                const standing_piece& other = furniture[random.below(furniture.size())];
                 const angle way =
                     touching ? side_of(other, random) : degrees(random.uniform(-180.0, 180.0));
                 const angle heading = touching ? way : degrees(random.uniform(-180.0, 180.0));
@@ -33526,7 +33528,7 @@ struct room_options {
     detail::circles_on_floor circles{room, {{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}}};
     random_stream contacts(options.seed, 3);
     for (int piece = 0; piece < options.pieces; ++piece) {
-        furniture_model model = models[static_cast<std::size_t>(random.bits() % models.size())];
+        furniture_model model = models[random.below(models.size())];
         const auto own = detail::boxes_of(model, options.touching);
         const auto place = options.touching
                                ? detail::touching_place(layout, furniture, model, own, contacts)
@@ -33898,7 +33900,7 @@ namespace detail {
     random_stream random(options.seed, number);
     object_view result;
     result.pose = detail::place_of_object(options, random);
-    const auto side = static_cast<detail::occluded_side>(random.bits() % 3);
+    const auto side = static_cast<detail::occluded_side>(random.below(3));
     beam b = options.beam;
     b.seed = random.bits();
 
@@ -34078,8 +34080,7 @@ class spaced_samples {
             }
         }
     }
-    for (std::size_t i = hits.size(); i > 1; --i)
-        std::swap(hits[i - 1], hits[static_cast<std::size_t>(random.bits() % i)]);
+    for (std::size_t i = hits.size(); i > 1; --i) std::swap(hits[i - 1], hits[random.below(i)]);
     constexpr double packed = 0.83;  // sqrt(.547 * 4 / pi): density of random packings of disks
     detail::spaced_samples spaced(packed * options.spacing);
     for (const surface_sample& s : hits) spaced.add(s);
@@ -34526,15 +34527,15 @@ class street_builder {
         double x = -end_ + random_.uniform(0.0, 3.0);
         while (true) {
             house h;
-            h.bays = 3 + static_cast<int>(random_.bits() % 3);
+            h.bays = 3 + static_cast<int>(random_.below(3));
             h.width = h.bays * random_.uniform(2.4, 3.1);
             if (x + h.width > end_) return;
-            h.storeys = 2 + static_cast<int>(random_.bits() % 3);
+            h.storeys = 2 + static_cast<int>(random_.below(3));
             h.eaves = h.storeys * random_.uniform(2.7, 3.2);
             h.ridge = h.eaves + random_.uniform(1.5, 4.0);
             h.recess = random_.uniform(0.10, 0.20);
             h.window_width = random_.uniform(1.0, 1.4);
-            h.door = static_cast<int>(random_.bits() % static_cast<unsigned>(h.bays));
+            h.door = static_cast<int>(random_.below(static_cast<std::size_t>(h.bays)));
             const bool has_garden = random_.uniform() < 0.5;
             const double setback =
                 has_garden ? random_.uniform(1.5, 3.0) : random_.uniform(0.0, 0.5);

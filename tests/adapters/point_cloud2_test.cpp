@@ -221,10 +221,10 @@ TEST(adapters_point_cloud2, survives_damage) {
     for (int round = 0; round < 20000; ++round) {
         message m = good;
         for (int k = 0; k < 2; ++k) {
-            const std::uint64_t kind = random.bits() % 8;
-            std::uint32_t value = static_cast<std::uint32_t>(random.bits() % 64);
-            if (random.bits() % 4 == 0) value = static_cast<std::uint32_t>(random.bits());
-            point_field& field = m.fields[random.bits() % m.fields.size()];
+            const std::uint64_t kind = random.below(8);
+            std::uint32_t value = static_cast<std::uint32_t>(random.below(64));
+            if (random.below(4) == 0) value = static_cast<std::uint32_t>(random.bits());
+            point_field& field = m.fields[random.below(m.fields.size())];
             if (kind == 0) m.width = value;
             if (kind == 1) m.height = value;
             if (kind == 2) m.point_step = value;

@@ -24,7 +24,7 @@ TEST(pack, compares_each_with_the_limit) {
         const double special[] = {0.0, -0.0, 0.5, unbounded, -unbounded, std::nan("")};
         std::array<double, pack::size> a{};
         for (double& x : a) {
-            const auto kind = random.bits() % 12;
+            const auto kind = random.below(12);
             x = kind < 6 ? special[kind] : random.uniform();
         }
         for (const double limit : {0.0, 0.5, std::nextafter(0.5, 0.0), unbounded, -unbounded}) {

@@ -109,7 +109,10 @@ TEST(point_range, refuses_more_points_than_an_index_can_count) {
     struct endless {
         const Eigen::Vector3d* begin() const { return nullptr; }
         const Eigen::Vector3d* end() const { return nullptr; }
-        std::size_t size() const { return std::size_t{1} << 32; }
+        std::size_t size() const {  // 2^32, if there are such numbers
+            constexpr std::size_t most = std::numeric_limits<gnomon::point_index>::max();
+            return most < ~std::size_t{0} ? most + 1 : most;
+        }
     };
     EXPECT_THROW((gnomon::position_view<endless>(endless{})), std::invalid_argument);
 }

@@ -19,8 +19,8 @@ std::vector<edge> random_edges(std::size_t n, std::size_t m, std::uint64_t seed)
     gnomon::random_stream random(seed);
     std::vector<edge> edges(m);
     for (edge& e : edges) {
-        e.i = static_cast<gnomon::point_index>(random.bits() % n);
-        e.j = static_cast<gnomon::point_index>(random.bits() % n);
+        e.i = static_cast<gnomon::point_index>(random.below(n));
+        e.j = static_cast<gnomon::point_index>(random.below(n));
     }
     return edges;
 }

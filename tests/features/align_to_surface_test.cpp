@@ -41,11 +41,11 @@ oriented_cloud on_boxes(std::size_t n, std::uint64_t seed,
     gnomon::random_stream random(seed, 11);
     oriented_cloud result;
     while (result.size() < n) {
-        const auto& [low, high] = chair_boxes[random.bits() % chair_boxes.size()];
-        const auto axis = static_cast<int>(random.bits() % 3);
+        const auto& [low, high] = chair_boxes[random.below(chair_boxes.size())];
+        const auto axis = static_cast<int>(random.below(3));
         const int other = (axis + 1) % 3, third = (axis + 2) % 3;
         const double area = (high[other] - low[other]) * (high[third] - low[third]);
-        const double side = random.bits() % 2 == 0 ? 1.0 : -1.0;
+        const double side = random.below(2) == 0 ? 1.0 : -1.0;
         Eigen::Vector3d p, normal(0, 0, 0);
         normal[axis] = side;
         for (int a = 0; a < 3; ++a) p[a] = random.uniform(low[a], high[a]);

@@ -116,7 +116,7 @@ void expect_laws(const clouds::cloud& points, const convex_hull& hull) {
 /// in single precision, of mixed scales.
 clouds::cloud random_set(std::uint64_t seed) {
     gnomon::random_stream random(seed, 3);
-    const std::size_t n = 4 + random.bits() % 120;
+    const std::size_t n = 4 + random.below(120);
     clouds::cloud points = clouds::in_cube(n, seed);
     const int kind = static_cast<int>(seed % 10);
     const Eigen::Matrix3d turn = clouds::random_rotation(seed);
@@ -196,7 +196,7 @@ TEST(convex_hull, of_coplanar_points_is_that_in_their_plane) {
     for (std::uint64_t seed = 0; seed < 120; ++seed) {
         SCOPED_TRACE(seed);
         gnomon::random_stream random(seed, 8);
-        const auto small = [&] { return static_cast<int>(random.bits() % 7) - 3; };
+        const auto small = [&] { return static_cast<int>(random.below(7)) - 3; };
         const int u[3]{small(), small(), small()}, v[3]{small(), small(), small()};
         const Eigen::Vector3d normal =
             Eigen::Vector3d(u[0], u[1], u[2]).cross(Eigen::Vector3d(v[0], v[1], v[2]));

@@ -51,7 +51,7 @@ TEST(minimum_area_rectangle, is_the_smallest_on_an_edge_of_the_hull) {
         SCOPED_TRACE(seed);
         gnomon::random_stream random(seed);
         clouds::cloud points;
-        const std::size_t n = 3 + random.bits() % 200;
+        const std::size_t n = 3 + random.below(200);
         const double stretch = std::pow(10.0, -4.0 * random.uniform());
         for (std::size_t i = 0; i < n; ++i) {
             Eigen::Vector3d p(random.uniform(), random.uniform(), 0.0);

@@ -127,7 +127,7 @@ TEST(quadric_fit, of_the_thesis_agrees_with_a_dense_svd) {
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         gnomon::random_stream random(seed, 4);
         const auto all = patches::all();
-        const std::size_t k = 6 + random.bits() % 50;
+        const std::size_t k = 6 + random.below(50);
         const double radius = std::pow(10.0, random.uniform(-2.0, 0.0)) * 0.3;
         const double sigma = random.uniform() < 0.3 ? 0.0 : 0.05 * radius * random.uniform();
         const Eigen::Matrix3d r = clouds::random_rotation(seed);

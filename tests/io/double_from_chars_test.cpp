@@ -126,8 +126,8 @@ TEST(double_from_chars, agrees_with_the_standard_library) {
     int numbers = 0;
     for (int trial = 0; trial < 200'000; ++trial) {
         std::string text;
-        for (std::uint64_t n = 1 + random.bits() % 8; n > 0; --n)
-            text += pieces[random.bits() % std::size(pieces)];
+        for (std::uint64_t n = 1 + random.below(8); n > 0; --n)
+            text += pieces[random.below(std::size(pieces))];
         const reading ours = read(text);
         const reading theirs(text, standard);
         ASSERT_EQ(ours.length, theirs.length) << text;

@@ -33,9 +33,7 @@ gnomon::scan parse_las(const std::string& bytes, const std::vector<std::string>&
 
 /// A random point whose attributes fit a point format.
 las_point random_las_point(gnomon::random_stream& random, unsigned format) {
-    const auto below = [&random](std::uint64_t n) {
-        return static_cast<unsigned>(random.bits() % n);
-    };
+    const auto below = [&random](std::size_t n) { return static_cast<unsigned>(random.below(n)); };
     const bool old = format < 6;
     las_point p;
     p.x = static_cast<std::int32_t>(random.bits());
@@ -318,8 +316,8 @@ TEST(io_read_las, survives_truncation_and_damage) {
         gnomon::random_stream random(format);
         for (int round = 0; round < 2000; ++round) {  // single bits
             std::string damaged = bytes;
-            char& c = damaged[random.bits() % damaged.size()];
-            c = static_cast<char>(static_cast<unsigned char>(c) ^ (1U << (random.bits() % 8)));
+            char& c = damaged[random.below(damaged.size())];
+            c = static_cast<char>(static_cast<unsigned char>(c) ^ (1U << (random.below(8))));
             io_test::survives(las_parser, damaged);
         }
     }

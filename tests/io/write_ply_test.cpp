@@ -217,7 +217,7 @@ std::string file_of_random_bytes(ply_format format, std::size_t points) {
     }
     text += "end_header\n";
     gnomon::random_stream random(5);
-    for (std::size_t i = 0; i < size * points; ++i) text += static_cast<char>(random.bits() % 256);
+    for (std::size_t i = 0; i < size * points; ++i) text += static_cast<char>(random.below(256));
     return text;
 }
 

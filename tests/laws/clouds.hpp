@@ -79,8 +79,7 @@ inline cloud permuted(const cloud& points, std::uint64_t seed, std::vector<std::
     gnomon::random_stream random(seed, 5);
     order.resize(points.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    for (std::size_t i = order.size(); i > 1; --i)
-        std::swap(order[i - 1], order[random.bits() % i]);
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
     cloud result;
     for (const std::size_t i : order) result.push_back(points[i]);
     return result;

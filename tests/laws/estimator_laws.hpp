@@ -126,13 +126,13 @@ inline neighborhood_sample random_neighborhood(std::uint64_t seed, double scale)
     const Eigen::Matrix3d rotation = clouds::random_rotation(seed);
     Eigen::Vector3d extent;
     for (int a = 0; a < 3; ++a) extent[a] = std::pow(10.0, random.uniform(-9.0, 0.0));
-    if (random.uniform() < 0.5) extent[static_cast<int>(random.bits() % 3)] = 0.0;
+    if (random.uniform() < 0.5) extent[static_cast<int>(random.below(3))] = 0.0;
     const Eigen::Vector3d center = clouds::gaussian_vector(random);
     const auto draw = [&]() -> Eigen::Vector3d {
         return scale * (center + rotation * extent.cwiseProduct(clouds::gaussian_vector(random)));
     };
     neighborhood_sample sample{.p = draw(), .neighbors = {}};
-    const std::size_t k = 2 + random.bits() % 39;
+    const std::size_t k = 2 + random.below(39);
     for (std::size_t j = 0; j < k; ++j) sample.neighbors.push_back(draw());
     sample.viewpoint = scale * clouds::gaussian_vector(random);
     // Every fourth view point is in the plane of the first two directions: grazing rays.

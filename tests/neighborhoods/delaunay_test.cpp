@@ -104,7 +104,7 @@ bool passes_the_empty_circle_test(const star& points, const planar_point& b) {
 /// Neighborhoods of all kinds: random, on a grid, on circles, with duplicates, at a border.
 star random_neighborhood(std::uint64_t seed) {
     gnomon::random_stream random(seed, 9);
-    const auto k = static_cast<gnomon::point_index>(1 + random.bits() % 40);
+    const auto k = static_cast<gnomon::point_index>(1 + random.below(40));
     star points;
     for (gnomon::point_index i = 1; i <= k; ++i) {
         planar_point q{random.gaussian(), random.gaussian(), i};
@@ -120,7 +120,7 @@ star random_neighborhood(std::uint64_t seed) {
                 constexpr double on_circle[12][2] = {{5, 0}, {-5, 0}, {0, 5},  {0, -5},
                                                      {3, 4}, {3, -4}, {-3, 4}, {-3, -4},
                                                      {4, 3}, {4, -3}, {-4, 3}, {-4, -3}};
-                const auto& c = on_circle[random.bits() % 12];
+                const auto& c = on_circle[random.below(12)];
                 q.x = c[0] + 5.0;
                 q.y = c[1];
                 break;

@@ -24,7 +24,7 @@ lanes any_lanes(gnomon::random_stream& random) {
     lanes a{};
     for (std::size_t l = 0; l < lane_count; ++l) {
         const float special[] = {0.0f, -0.0f, 0.5f, beyond_all, -beyond_all, std::nanf("")};
-        const auto kind = random.bits() % 12;
+        const auto kind = random.below(12);
         a[l] = kind < 6 ? special[kind] : static_cast<float>(random.uniform());
     }
     return a;

@@ -264,7 +264,8 @@ TEST(raster, takes_any_radius) {
     const auto of_all = gnomon::raster{.width = 12, .noise = little_noise, .radius = 12}(image);
     const auto grown = gnomon::raster{.width = 12, .noise = little_noise, .max_radius = 12}(image);
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-    for (const std::size_t radius : {std::size_t{1} << 32, (std::size_t{1} << 32) + 1, most}) {
+    constexpr std::size_t beyond_32_bits = most / 0xffffffff > 1 ? most / 0xffffffff : most;
+    for (const std::size_t radius : {beyond_32_bits - 1, beyond_32_bits, most}) {
         EXPECT_EQ((gnomon::raster{.width = 12, .noise = little_noise, .radius = radius}(image)),
                   of_all);
         EXPECT_EQ((gnomon::raster{.width = 12, .noise = little_noise, .max_radius = radius}(image)),

@@ -67,7 +67,7 @@ TEST(ray_metric, search_finds_the_nearest_points) {
     gnomon::random_stream random(4);
     std::vector<gnomon::neighbor> found;
     for (int trial = 0; trial < 50; ++trial) {
-        const std::size_t i = random.bits() % points.size();
+        const std::size_t i = random.below(points.size());
         const ray_metric metric(clouds::gaussian_vector(random).normalized(),
                                 random.uniform(0.0, 0.2));
         gnomon::detail::search_tree(index.tree(), points[i], {.k = 16}, found, metric);

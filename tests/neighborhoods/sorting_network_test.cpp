@@ -70,7 +70,7 @@ TEST(sorting_network, sorts_zeros_and_ones) {
             for (std::size_t end = first; end <= n; ++end)
                 expect_sorted([=](std::size_t i) { return i >= first && i < end; });
         for (int trial = 0; trial < 2000; ++trial)
-            expect_sorted([&](std::size_t) { return random.bits() % 2 != 0; });
+            expect_sorted([&](std::size_t) { return random.below(2) != 0; });
     });
 }
 

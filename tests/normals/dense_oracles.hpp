@@ -28,7 +28,7 @@ inline laws::neighborhood_sample random_neighborhood(std::uint64_t seed,
                                                      const Eigen::Vector3d& place,
                                                      bool in_float = false) {
     gnomon::random_stream random(seed, 3);
-    const auto k = static_cast<std::size_t>(3 + random.bits() % 58);
+    const auto k = static_cast<std::size_t>(3 + random.below(58));
     const Eigen::Vector3d radii(1.0, std::pow(10.0, -3.0 * random.uniform()),
                                 std::pow(10.0, -6.0 * random.uniform()));
     const Eigen::Matrix3d r = 0.05 * clouds::random_rotation(seed) * radii.asDiagonal();

@@ -24,7 +24,7 @@ using surface_elements = std::vector<gnomon::surfel<gnomon::plane_fit>>;
 void scramble_signs(auto& surface, std::uint64_t seed) {
     gnomon::random_stream random(seed);
     for (auto& s : surface) {
-        if (random.bits() % 2 == 0) s.normal = -s.normal;
+        if (random.below(2) == 0) s.normal = -s.normal;
     }
 }
 

@@ -48,11 +48,11 @@ std::vector<std::vector<double>> strongest_paths(std::size_t n, const links& all
 TEST(signed_forest, follows_the_strongest_paths) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         gnomon::random_stream random(seed);
-        const std::size_t n = 2 + random.bits() % 30;
-        links all(random.bits() % (4 * n));
+        const std::size_t n = 2 + random.below(30);
+        links all(random.below(4 * n));
         for (sign_link& l : all) {
-            l.b = static_cast<gnomon::point_index>(1 + random.bits() % (n - 1));
-            l.a = static_cast<gnomon::point_index>(random.bits() % l.b);
+            l.b = static_cast<gnomon::point_index>(1 + random.below(n - 1));
+            l.a = static_cast<gnomon::point_index>(random.below(l.b));
             l.relation = random.uniform(-1.0, 1.0);
         }
         const auto best = strongest_paths(n, all);

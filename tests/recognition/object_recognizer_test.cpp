@@ -255,7 +255,7 @@ TEST(object_recognizer, is_calibrated_on_views_that_are_left_out) {
         rec::object_recognizer model(few_trees);
         gnomon::random_stream random(12);
         for (const auto& v : some_views::training().views) {
-            const auto name = some_views::names[random.bits() % 2];
+            const auto name = some_views::names[random.below(2)];
             if (has_versions) {
                 model.learn(std::vector<rec::view>{v, v}, name);
             } else {

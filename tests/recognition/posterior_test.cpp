@@ -90,7 +90,7 @@ TEST(posterior, equals_exact_rational_arithmetic) {
         for (int t = 0; t < 10; ++t) {
             std::vector<double> row;
             for (auto& p : product) {
-                const std::uint64_t k = 1 + random.bits() % 7;
+                const std::uint64_t k = 1 + random.below(7);
                 p *= k;
                 row.push_back(std::log(static_cast<double>(k) / 7.0));
             }

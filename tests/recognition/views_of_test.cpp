@@ -30,7 +30,7 @@ some_views::cloud scattered_boards(std::size_t boards, double room, std::uint64_
     for (std::size_t i = 0; i < boards; ++i)
         c.add_board(
             {random.uniform(0.0, room), random.uniform(0.0, room), random.uniform(0.2, 1.0)},
-            {0.1, 0.0, 0.0}, {0.0, 0.1, 0.05}, 20 + static_cast<int>(random.bits() % 20), random);
+            {0.1, 0.0, 0.0}, {0.0, 0.1, 0.05}, 20 + static_cast<int>(random.below(20)), random);
     for (std::size_t i = 0; i < 3 * boards; ++i)
         c.add({random.uniform(0.0, room), random.uniform(0.0, room), random.uniform(0.0, 1.0)},
               {0.0, 0.0, 0.0}, gnomon::unlabeled);

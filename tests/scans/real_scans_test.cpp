@@ -39,7 +39,7 @@ gnomon::segments segment(const clouds::cloud& points, const knn& neighbors = {})
 /// Which points lie within a centimetre of the best of 500 random planes.
 std::vector<bool> ransac_inliers(const clouds::cloud& points) {
     gnomon::random_stream random(1);
-    const auto any = [&] { return points[random.bits() % points.size()]; };
+    const auto any = [&] { return points[random.below(points.size())]; };
     std::vector<bool> best(points.size(), false);
     std::size_t most = 0;
     for (int trial = 0; trial < 500; ++trial) {

@@ -22,7 +22,7 @@ clouds::cloud blobs(std::uint64_t seed) {
     clouds::cloud points;
     for (int blob = 0; blob < 12; ++blob) {
         const Eigen::Vector3d center(random.uniform(), random.uniform(), random.uniform());
-        const auto n = static_cast<int>(20 + random.bits() % 100);
+        const auto n = static_cast<int>(20 + random.below(100));
         for (int i = 0; i < n; ++i)
             points.push_back(center + 0.04 * clouds::gaussian_vector(random));
     }
@@ -70,7 +70,7 @@ clouds::cloud heaps(std::size_t n, std::uint64_t seed, double width) {
     gnomon::random_stream random(seed, 1);
     clouds::cloud points;
     for (const auto& p : clouds::in_cube(n, seed)) {
-        const std::size_t copies = random.bits() % 5 == 0 ? 1 : random.bits() % 100;
+        const std::size_t copies = random.below(5) == 0 ? 1 : random.below(100);
         for (std::size_t i = 0; i < copies; ++i)
             points.push_back(p + width * clouds::gaussian_vector(random));
     }

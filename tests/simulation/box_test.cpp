@@ -66,7 +66,7 @@ TEST(box, leaves_no_seam_to_a_box_that_touches_it) {
             const sim::bvh_caster caster(row);
             gnomon::random_stream random(3);
             for (int i = 0; i < 2000; ++i) {
-                const double seam = 0.05 + 0.1 * static_cast<double>(random.bits() % 9);
+                const double seam = 0.05 + 0.1 * static_cast<double>(random.below(9));
                 const Eigen::Vector3d to(seam, random.uniform(-0.2, 0.2), 0.25);
                 const double aside = i % 2 ? 0.0 : random.uniform(-0.5, 0.5);
                 const Eigen::Vector3d from(seam, to.y() + aside, 2.25);

@@ -37,7 +37,7 @@ sim::pose any_frame(gnomon::random_stream& random) {
 /// A chain of up to 8 joints of both kinds.
 kinematic_chain any_chain(gnomon::random_stream& random) {
     kinematic_chain chain{.base = any_frame(random), .tool = any_frame(random)};
-    const auto joints = random.bits() % 9;
+    const auto joints = random.below(9);
     for (std::uint64_t i = 0; i < joints; ++i) {
         sim::chain_joint joint;
         joint.theta = radians(random.uniform(-3.0, 3.0));

@@ -54,8 +54,8 @@ TEST(plane_patch, leaves_no_gap_to_a_wall_that_touches_it) {
             gnomon::random_stream random(1);
             for (int i = 0; i < 5000; ++i) {
                 const double s = i % 10 ? random.uniform(-1.0, 1.0) : 1.0;
-                const double a = random.bits() % 2 ? 1.0 : -1.0;
-                const double b = random.bits() % 2 ? 1.0 : -1.0;
+                const double a = random.below(2) ? 1.0 : -1.0;
+                const double b = random.below(2) ? 1.0 : -1.0;
                 const Eigen::Vector3d to = i % 3 == 0   ? Eigen::Vector3d(2 * a, 2 * b, s)
                                            : i % 3 == 1 ? Eigen::Vector3d(2 * a, 2 * s, b)
                                                         : Eigen::Vector3d(2 * s, 2 * a, b);

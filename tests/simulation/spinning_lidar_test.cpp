@@ -43,8 +43,8 @@ sim::fixed standing(const spinning_lidar& lidar, const sim::pose& mount = {}) {
 
 /// A lidar of random elevations.
 spinning_lidar any_lidar(gnomon::random_stream& random) {
-    spinning_lidar lidar{.elevations = {}, .columns = 1 + random.bits() % 400};
-    const auto beams = 1 + random.bits() % 20;
+    spinning_lidar lidar{.elevations = {}, .columns = 1 + random.below(400)};
+    const auto beams = 1 + random.below(20);
     for (std::uint64_t j = 0; j < beams; ++j)
         lidar.elevations.push_back(degrees(random.uniform(-60.0, 60.0)));
     lidar.frequency = random.uniform(1.0, 30.0);

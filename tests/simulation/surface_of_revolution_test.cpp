@@ -123,7 +123,7 @@ TEST(surface_of_revolution, leaves_no_gap_between_arcs) {
             const surface_of_revolution pipe(profile, {.smooth = smooth, .top = true});
             gnomon::random_stream random(2);
             for (int i = 0; i < 2000; ++i) {
-                const auto [radius, height] = profile[1 + random.bits() % 998];
+                const auto [radius, height] = profile[1 + random.below(998)];
                 const double a = random.uniform(0.0, 6.28);
                 const Eigen::Vector3d joint(radius * std::cos(a), radius * std::sin(a), height);
                 const Eigen::Vector3d from(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),

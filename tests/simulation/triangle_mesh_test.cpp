@@ -89,7 +89,7 @@ TEST(triangle_mesh, lets_no_ray_through_between_triangles) {
     }
     const triangle_mesh net({vertices, triangles, {}});
     for (int k = 0; k < 100'000; ++k) {
-        const auto& t = triangles[random.bits() % triangles.size()];
+        const auto& t = triangles[random.below(triangles.size())];
         const double share = k % 10 ? random.uniform() : 0.0;
         const Eigen::Vector3d target = vertices[t[0]] + share * (vertices[t[1]] - vertices[t[0]]);
         if (target.x() < 0.1 || target.y() < 0.1 || target.x() > n - 0.1 || target.y() > n - 0.1)
@@ -143,9 +143,9 @@ TEST(triangle_mesh, is_watertight_from_within) {
         const triangle_mesh mesh(placed, {"+x", "-x", "+y", "-y", "+z", "-z"});
         gnomon::random_stream random(5);
         for (int i = 0; i < 20'000; ++i) {
-            const auto& t = placed.triangles[random.bits() % placed.triangles.size()];
+            const auto& t = placed.triangles[random.below(placed.triangles.size())];
             const Eigen::Vector3d& a = placed.vertices[t[0]];
-            const Eigen::Vector3d& b = placed.vertices[t[1 + random.bits() % 2]];
+            const Eigen::Vector3d& b = placed.vertices[t[1 + random.below(2)]];
             const Eigen::Vector3d to = a + (i % 4 ? random.uniform() : 0.0) * (b - a);
             const Eigen::Vector3d from = place.point_out(
                 {random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)});

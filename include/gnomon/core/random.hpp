@@ -5,6 +5,7 @@
 /// counter. The distributions of the standard library differ between implementations.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
@@ -23,6 +24,9 @@ class random_stream {
 
     /// A number uniform in [0, 2^64).
     std::uint64_t bits() { return mix(state_ += 0x9e3779b97f4a7c15u); }
+
+    /// A number uniform in 0, 1, ... n - 1, up to a bias of n / 2^64. Precondition: n > 0.
+    std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
 
     /// A number uniform in [0, 1), a multiple of 2^-53.
     double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }

@@ -89,8 +89,8 @@ class seen_points {
         double least = std::numeric_limits<double>::infinity();
         auto needed = static_cast<double>(trials);
         for (int drawn = 0, compared = 0; drawn < trials && compared < needed; ++drawn) {
-            const Vector a = difference(at(random.bits() % size()), x_);
-            const Vector b = difference(at(random.bits() % size()), x_);
+            const Vector a = difference(at(random.below(size())), x_);
+            const Vector b = difference(at(random.below(size())), x_);
             const Vector n = cross(a, b);
             const double area = length(n);
             constexpr double elongated = 0.2;  // the sine of 12 degrees: performance only

@@ -113,9 +113,9 @@ struct sample_consensus {
         plane best;
         double least = std::numeric_limits<double>::infinity();
         for (int trial = 0; trial < trials; ++trial) {
-            const Eigen::Vector3d a = offset(random.bits() % n);
-            const Eigen::Vector3d b = offset(random.bits() % n);
-            const Eigen::Vector3d c = offset(random.bits() % n);
+            const Eigen::Vector3d a = offset(random.below(n));
+            const Eigen::Vector3d b = offset(random.below(n));
+            const Eigen::Vector3d c = offset(random.below(n));
             const Eigen::Vector3d normal = cross(difference(b, a), difference(c, a));
             const double size = length(normal);
             if (!(size > 0.0) || !std::isfinite(size)) continue;  // collinear

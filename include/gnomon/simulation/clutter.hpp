@@ -40,7 +40,7 @@ namespace detail {
 [[nodiscard]] inline scene cartons(random_stream& random) {
     scene piece;
     const auto object = piece.add_object("carton");
-    const auto count = 1 + random.bits() % 3;
+    const auto count = 1 + random.below(3);
     double length = random.uniform(0.30, 0.60), width = random.uniform(0.25, 0.45), low = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
         const double height = count == 1 ? random.uniform(0.30, 0.60) : random.uniform(0.18, 0.38);

@@ -122,7 +122,7 @@ struct room_options {
     detail::circles_on_floor circles{room, {{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}}};
     random_stream contacts(options.seed, 3);
     for (int piece = 0; piece < options.pieces; ++piece) {
-        furniture_model model = models[static_cast<std::size_t>(random.bits() % models.size())];
+        furniture_model model = models[random.below(models.size())];
         const auto own = detail::boxes_of(model, options.touching);
         const auto place = options.touching
                                ? detail::touching_place(layout, furniture, model, own, contacts)

@@ -137,7 +137,7 @@ namespace detail {
     random_stream random(options.seed, number);
     object_view result;
     result.pose = detail::place_of_object(options, random);
-    const auto side = static_cast<detail::occluded_side>(random.bits() % 3);
+    const auto side = static_cast<detail::occluded_side>(random.below(3));
     beam b = options.beam;
     b.seed = random.bits();
 

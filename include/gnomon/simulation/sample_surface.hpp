@@ -157,8 +157,7 @@ class spaced_samples {
             }
         }
     }
-    for (std::size_t i = hits.size(); i > 1; --i)
-        std::swap(hits[i - 1], hits[static_cast<std::size_t>(random.bits() % i)]);
+    for (std::size_t i = hits.size(); i > 1; --i) std::swap(hits[i - 1], hits[random.below(i)]);
     constexpr double packed = 0.83;  // sqrt(.547 * 4 / pi): density of random packings of disks
     detail::spaced_samples spaced(packed * options.spacing);
     for (const surface_sample& s : hits) spaced.add(s);

@@ -49,8 +49,8 @@ struct room_openings {
     /// @param piece  of furniture that touches walls
     room_openings(const bounds& room, const bounds& piece, random_stream random)
         : thickness(random.uniform(0.12, 0.36)) {
-        const auto doors = 1 + random.bits() % 2;
-        const auto windows = 1 + random.bits() % 3;
+        const auto doors = 1 + random.below(2);
+        const auto windows = 1 + random.below(3);
         const double height = room.size().z();
         for (std::uint64_t i = 0; i < doors; ++i) add(door(height, random), room, piece, random);
         for (std::uint64_t i = 0; i < windows; ++i)
@@ -97,7 +97,7 @@ struct room_openings {
         const auto places = walls_of(room);
         const double width = o.hole.width();
         for (int trial = 0; trial < 50; ++trial) {
-            o.wall = static_cast<std::size_t>(random.bits() % places.size());
+            o.wall = random.below(places.size());
             const double most = 0.5 * places[o.wall].length - 0.25;
             o.hole.left = random.uniform(-most, most - width);
             o.hole.right = o.hole.left + width;

@@ -34,7 +34,7 @@ struct standing_piece {
 /// The way from a piece to a place at its side.
 [[nodiscard]] inline angle side_of(const standing_piece& piece, random_stream& random) {
     return radians(piece.place.heading.radians() +
-                   degrees(90.0 * static_cast<double>(random.bits() % 4)).radians());
+                   degrees(90.0 * static_cast<double>(random.below(4))).radians());
 }
 
 /// The floor of a room and the pieces on it.
@@ -80,7 +80,7 @@ class room_layout {
     /// @param gap     between piece and wall [m]
     [[nodiscard]] floor_place at_wall(const own_boxes& own, angle turned, double gap,
                                       random_stream& random) const {
-        const auto wall = random.bits() % 3;
+        const auto wall = random.below(3);
         const angle inward = degrees(wall == 0 ? 90.0 : wall == 1 ? -90.0 : 180.0);
         floor_place place;
         place.heading = radians(inward.radians() + turned.radians());

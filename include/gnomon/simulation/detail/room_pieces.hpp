@@ -42,12 +42,11 @@ inline constexpr double least_contact = 0.0004;  // [m]; numerical
     constexpr double from_sensor = 0.7;  // [m]
     const bool is_chair = std::holds_alternative<chair>(model.piece);
     for (int trial = 0; trial < trials; ++trial) {
-        const angle turned =
-            degrees(is_chair ? 0.0 : 90.0 * static_cast<double>(random.bits() % 4));
+        const angle turned = degrees(is_chair ? 0.0 : 90.0 * static_cast<double>(random.below(4)));
         const bool is_at_piece = random.uniform() < 0.6;
         std::optional<floor_place> place;
         if (is_at_piece && !others.empty()) {
-            const standing_piece& other = others[random.bits() % others.size()];
+            const standing_piece& other = others[random.below(others.size())];
             const angle way = side_of(other, random);
             const angle heading =
                 radians(way.radians() + degrees(180).radians() + turned.radians());
@@ -85,7 +84,7 @@ inline void add_clutter(scene& world, room_layout layout,
             if (at_wall) {
                 place = layout.at_wall(own, degrees(0), random.uniform(0.01, 0.05), random);
             } else if (at_furniture) {
-                const standing_piece& other = furniture[random.bits() % furniture.size()];
+                const standing_piece& other = furniture[random.below(furniture.size())];
                 const angle way =
                     touching ? side_of(other, random) : degrees(random.uniform(-180.0, 180.0));
                 const angle heading = touching ? way : degrees(random.uniform(-180.0, 180.0));

@@ -77,15 +77,15 @@ class street_builder {
         double x = -end_ + random_.uniform(0.0, 3.0);
         while (true) {
             house h;
-            h.bays = 3 + static_cast<int>(random_.bits() % 3);
+            h.bays = 3 + static_cast<int>(random_.below(3));
             h.width = h.bays * random_.uniform(2.4, 3.1);
             if (x + h.width > end_) return;
-            h.storeys = 2 + static_cast<int>(random_.bits() % 3);
+            h.storeys = 2 + static_cast<int>(random_.below(3));
             h.eaves = h.storeys * random_.uniform(2.7, 3.2);
             h.ridge = h.eaves + random_.uniform(1.5, 4.0);
             h.recess = random_.uniform(0.10, 0.20);
             h.window_width = random_.uniform(1.0, 1.4);
-            h.door = static_cast<int>(random_.bits() % static_cast<unsigned>(h.bays));
+            h.door = static_cast<int>(random_.below(static_cast<std::size_t>(h.bays)));
             const bool has_garden = random_.uniform() < 0.5;
             const double setback =
                 has_garden ? random_.uniform(1.5, 3.0) : random_.uniform(0.0, 0.5);
