@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 // What was not learned. Two of the models at a time are withheld: are their views novel, and do
 // groups of novel views stand for models? And fallen furniture, by features that need no ground.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,14 +20,6 @@
 #include <gnomon/recognition/view_novelty.hpp>
 
 namespace {
-
-/// The probability that a novel view has the larger value: the area under the ROC curve.
-double area_under_curve(const std::vector<double>& known, const std::vector<double>& novel) {
-    double wins = 0.0;
-    for (const double x : novel)
-        for (const double y : known) wins += x > y ? 1.0 : x == y ? 0.5 : 0.0;
-    return wins / static_cast<double>(known.size() * novel.size());
-}
 
 /// -sum p log p of counts, by their key.
 double entropy(const auto& counts, double n) {
@@ -65,11 +56,15 @@ struct withheld {
 withheld without(const std::array<std::size_t, 2>& two, const view_set& training,
                  const view_set& tests, const std::vector<std::string>& names) {
     const auto is_novel = [&](std::size_t c) { return c == two[0] || c == two[1]; };
+    view_set learned;
+    learned.versions = training.versions;
+    for (std::size_t i = 0; i < training.views.size(); ++i) {
+        if (is_novel(training.classes[i])) continue;
+        learned.views.push_back(training.views[i]);
+        learned.classes.push_back(training.classes[i]);
+    }
     rec::object_recognizer model;
-    for (std::size_t i = 0; i < training.views.size(); i += training.versions)
-        if (!is_novel(training.classes[i]))
-            model.learn({training.views.data() + i, training.versions}, names[training.classes[i]]);
-    model.fit(gnomon::threads{});
+    learn(model, learned, names);
     const rec::view_novelty novelty(std::move(model), gnomon::threads{});
     constexpr double rejected_share = 0.05;  // of known views
     std::vector<double> known, novel;
@@ -85,12 +80,12 @@ withheld without(const std::array<std::size_t, 2>& two, const view_set& training
         rejected.push_back(tests.views[i]);
         classes.push_back(tests.classes[i]);
     }
-    result.area = area_under_curve(known, novel);
+    result.area = probability_of_less(known, novel);
     result.rejected_known /= static_cast<double>(known.size());
     result.rejected_novel /= static_cast<double>(novel.size());
     const auto groups = novelty.groups_of(rejected);
     result.v_measure = v_measure(classes, groups);
-    result.groups = std::ranges::max(groups, {}, [](std::size_t g) { return g; }) + 1;
+    result.groups = std::set(groups.begin(), groups.end()).size();
     return result;
 }
 

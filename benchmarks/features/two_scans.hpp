@@ -77,19 +77,8 @@ struct feature_distances {
     /// The median distance of the same, divided by that of different ones.
     [[nodiscard]] double ratio() const { return median_of(same) / median_of(different); }
 
-    /// O(n log n).
     [[nodiscard]] double repeatability() const {
-        std::vector<double> others = different;
-        std::sort(others.begin(), others.end());
-        double larger = 0.0;
-        for (const double d : same) {
-            const auto [low, high] = std::equal_range(others.begin(), others.end(), d);
-            larger +=
-                static_cast<double>(others.end() - high) + 0.5 * static_cast<double>(high - low);
-        }
-        return 2.0 * larger / static_cast<double>(same.size()) /
-                   static_cast<double>(others.size()) -
-               1.0;
+        return 2.0 * probability_of_less(same, different) - 1.0;
     }
 };
 

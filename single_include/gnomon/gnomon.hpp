@@ -3123,8 +3123,7 @@ struct leaf_box {
     [[nodiscard]] double squared_distance_to(const leaf_box& other) const {
         double sum = 0.0;
         for (std::size_t a = 0; a < 3; ++a) {
-            const double gap =
-                std::max(std::max(other.low[a] - high[a], low[a] - other.high[a]), 0.0);
+            const double gap = std::max({other.low[a] - high[a], low[a] - other.high[a], 0.0});
             sum += gap * gap;
         }
         return sum;
@@ -3284,22 +3283,16 @@ class leaf_tree {
         const auto is_near = [&](const subtree& t) {
             return boxes_[t.node].squared_distance_to(box) <= limit;
         };
-        if (!is_near(root())) return;
-        stack[depth++] = root();
+        if (is_near(root())) stack[depth++] = root();
         while (depth > 0) {
-            subtree t = stack[--depth];
-            for (bool inside = true; inside;) {
-                if (t.is_leaf()) {
-                    visit(t.first, boxes_[t.node]);
-                    break;
-                }
-                const auto [left, right] = t.children();
-                const bool right_too = is_near(right);
-                inside = is_near(left);
-                if (inside && right_too) stack[depth++] = right;
-                t = inside ? left : right;
-                inside |= right_too;
+            const subtree t = stack[--depth];
+            if (t.is_leaf()) {
+                visit(t.first, boxes_[t.node]);
+                continue;
             }
+            const auto [left, right] = t.children();
+            if (is_near(right)) stack[depth++] = right;
+            if (is_near(left)) stack[depth++] = left;
         }
     }
 
@@ -34352,7 +34345,7 @@ namespace gnomon::simulation {
 struct vehicle {
     double length = 4.30;          ///< of the body, along x
     double width = 1.76;           ///< of the body, along y
-    double height = 1.47;          ///< of the roof above the road [m]
+    double height = 1.47;          ///< of the top above the road [m]
     double clearance = 0.22;       ///< height of the lower side of the body
     double belt_height = 0.92;     ///< of the upper side of the body, where the cabin begins
     double nose_height = 0.72;     ///< of the front end of the bonnet
@@ -34360,7 +34353,7 @@ struct vehicle {
     double boot = 0.45;            ///< length of the boot, behind the cabin
     double windscreen = 0.75;      ///< how far the top of the windscreen lies behind its bottom
     double rear_window = 0.40;     ///< how far the top of the rear window lies before its bottom
-    double roof_inset = 0.14;      ///< by which the roof is narrower, on each side [m]
+    double roof_inset = 0.14;      ///< by which the top is narrower than the body, on each side [m]
     double wheel_diameter = 0.63;  ///< [m]
     double wheel_width = 0.21;     ///< [m]
     double wheel_base = 2.60;      ///< distance between the axles

@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/prefetch.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>

@@ -5,6 +5,7 @@
 /// limit. The number of groups need not be known.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -81,9 +82,11 @@ class linkage_chain {
 
     void merge(std::size_t into, std::size_t from) {
         const double all = sizes_[into] + sizes_[from];
-        for (const std::size_t k : left_)
-            at(into, k) = at(k, into) =
-                (sizes_[into] * at(into, k) + sizes_[from] * at(from, k)) / all;
+        for (const std::size_t k : left_) {
+            const double a = at(into, k), b = at(from, k);
+            const double mean = (sizes_[into] * a + sizes_[from] * b) / all;
+            at(into, k) = at(k, into) = std::max(mean, std::min(a, b));  // also when rounded
+        }
         sizes_[into] = all;
         for (std::size_t& g : group_of_)
             if (g == from) g = into;

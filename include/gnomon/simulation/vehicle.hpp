@@ -23,7 +23,7 @@ namespace gnomon::simulation {
 struct vehicle {
     double length = 4.30;          ///< of the body, along x
     double width = 1.76;           ///< of the body, along y
-    double height = 1.47;          ///< of the roof above the road [m]
+    double height = 1.47;          ///< of the top above the road [m]
     double clearance = 0.22;       ///< height of the lower side of the body
     double belt_height = 0.92;     ///< of the upper side of the body, where the cabin begins
     double nose_height = 0.72;     ///< of the front end of the bonnet
@@ -31,7 +31,7 @@ struct vehicle {
     double boot = 0.45;            ///< length of the boot, behind the cabin
     double windscreen = 0.75;      ///< how far the top of the windscreen lies behind its bottom
     double rear_window = 0.40;     ///< how far the top of the rear window lies before its bottom
-    double roof_inset = 0.14;      ///< by which the roof is narrower, on each side [m]
+    double roof_inset = 0.14;      ///< by which the top is narrower than the body, on each side [m]
     double wheel_diameter = 0.63;  ///< [m]
     double wheel_width = 0.21;     ///< [m]
     double wheel_base = 2.60;      ///< distance between the axles

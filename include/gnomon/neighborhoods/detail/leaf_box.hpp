@@ -23,8 +23,7 @@ struct leaf_box {
     [[nodiscard]] double squared_distance_to(const leaf_box& other) const {
         double sum = 0.0;
         for (std::size_t a = 0; a < 3; ++a) {
-            const double gap =
-                std::max(std::max(other.low[a] - high[a], low[a] - other.high[a]), 0.0);
+            const double gap = std::max({other.low[a] - high[a], low[a] - other.high[a], 0.0});
             sum += gap * gap;
         }
         return sum;

@@ -130,22 +130,16 @@ class leaf_tree {
         const auto is_near = [&](const subtree& t) {
             return boxes_[t.node].squared_distance_to(box) <= limit;
         };
-        if (!is_near(root())) return;
-        stack[depth++] = root();
+        if (is_near(root())) stack[depth++] = root();
         while (depth > 0) {
-            subtree t = stack[--depth];
-            for (bool inside = true; inside;) {
-                if (t.is_leaf()) {
-                    visit(t.first, boxes_[t.node]);
-                    break;
-                }
-                const auto [left, right] = t.children();
-                const bool right_too = is_near(right);
-                inside = is_near(left);
-                if (inside && right_too) stack[depth++] = right;
-                t = inside ? left : right;
-                inside |= right_too;
+            const subtree t = stack[--depth];
+            if (t.is_leaf()) {
+                visit(t.first, boxes_[t.node]);
+                continue;
             }
+            const auto [left, right] = t.children();
+            if (is_near(right)) stack[depth++] = right;
+            if (is_near(left)) stack[depth++] = left;
         }
     }
 
