@@ -47,7 +47,8 @@ struct height_histogram {
 
 /// The lowest bin of those that hold most. Precondition: there are bins.
 [[nodiscard]] const auto& fullest(const auto& histogram) {
-    return *std::ranges::max_element(histogram.bins, {}, &height_histogram::bin::count);
+    return *std::max_element(histogram.bins.begin(), histogram.bins.end(),
+                             [](const auto& a, const auto& b) { return a.count < b.count; });
 }
 
 }  // namespace gnomon::detail
