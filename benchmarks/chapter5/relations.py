@@ -409,6 +409,39 @@ def fallen_chairs(tables):
     return with_worst(found, "right", "precision"), found["right"] >= 0.6
 
 
+# A real office.
+
+def right_in_office(tables, segments, *objects):
+    """Whether all of these are right for every seed, and how often, learned by thin and wide beams."""
+    rows = [row(tables["a real office"], learned="thin and skimmed", segments=segments, object=name)
+            for name in objects]
+    if None in rows:
+        return NOT_MEASURED
+    return (", ".join(f"{r['object']} {r['right']} of {r['seeds']}" for r in rows),
+            all(r["right"] == r["seeds"] for r in rows))
+
+
+CHAIRS = ("chair_a", "chair_b", "chair_c", "chair_d")
+
+
+@relation("offices", "5.r.1", "labeled parts: chairs and desk are right, screen and cabinet rejected", OWN)
+def labeled_office(tables):
+    return right_in_office(tables, "labeled parts", *CHAIRS, "desk", "tv", "tv_cabinet")
+
+
+@relation("offices", "5.r.2", "own segments: four chairs of four", OWN)
+def own_office(tables):
+    return right_in_office(tables, "own", *CHAIRS)
+
+
+@relation("offices", "5.r.3", "labeled parts: real over simulated accuracy is 0.75 or more", OWN)
+def real_over_simulated(tables):
+    found = row(tables["real and simulated"], learned="thin and skimmed", segments="labeled parts")
+    if found is None:
+        return NOT_MEASURED
+    return (f"{found['real']} / {found['simulated']} = {found['ratio']}", found["ratio"] >= 0.75)
+
+
 # Whole rooms.
 
 def method_in(tables, rooms, method):
