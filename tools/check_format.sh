@@ -15,7 +15,7 @@ else
 fi
 
 if command -v codespell >/dev/null; then
-    codespell --ignore-words-list positionof,nees,frome,pecification --skip '.git,build,single_include,*_out' . || status=1
+    codespell --ignore-words-list positionof,nees,frome --skip '.git,build,single_include,*_out' . || status=1
 else
     echo "codespell is missing: spelling not checked"
     [ $status -ne 0 ] || status=77

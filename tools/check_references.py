@@ -57,7 +57,7 @@ NUMBERED = {"Eq": "Eqs?|Equations?", "Sec": "Secs?|Sections?|Apps?|Appendix|Chap
             "Fig": "Figs?|Figures?", "Table": "Tabs?|Tables?", "Alg": "Algs?|Algorithms?"}
 NUMBER = r"\(?((?:[1-9]|A(?=\.))(?:\.\d+)*)\)?(?:\s+\([a-f]\))?"
 NUMBER_LIST = rf"{NUMBER}(?:(?:\s*(?:,|-|–|and|to|or)\s*)+{NUMBER})*"
-ABSENT = re.compile(r"\b[Ss]pecification of (?:it|the thesis|Klasing)|\bspecification(?=,? [AF]\d)"
+ABSENT = re.compile(r"\b(?i:specification) of (?:it|the thesis|Klasing)|\bspecification(?=,? [AF]\d)"
                     r"|\b[AF]\d{2}\b|\bA\d\b(?=[:)])|\.\./shared\b|(?<![\w/])shared/design\b")
 
 

@@ -5,44 +5,22 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "furniture_classes.hpp"
 #include "outcomes.hpp"
 #include "views.hpp"
-#include <gnomon/adapters/furniture_file.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 
 namespace {
 
 constexpr std::array<const char*, 3> class_names{"chair", "table", "other"};
-enum : std::uint32_t { chair, table, other, classes };
-
-/// From names such as "ikea_chair_agne_0010".
-std::uint32_t class_of(const std::string& name) {
-    const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-    if (has("_chair_") || has("_armchair_")) return chair;
-    return has("_table_") || has("_desk_") ? table : other;
-}
-
-std::vector<sim::furniture_model> read_all(const std::string& folder) {
-    std::vector<sim::furniture_model> models;
-    if (!std::filesystem::is_directory(folder)) {
-        std::printf("%s is not there: left out\n", folder.c_str());
-        return models;
-    }
-    std::vector<std::string> paths;
-    for (const auto& file : std::filesystem::directory_iterator(folder))
-        if (file.path().extension() == ".obj") paths.push_back(file.path().string());
-    std::ranges::sort(paths);
-    for (const std::string& path : paths) models.push_back(sim::read_furniture(path));
-    return models;
-}
+using furniture::class_of;
+using enum furniture::class_number;
 
 /// Of each model, the fold in which it is left out: models of a class are in all folds alike, in a
 /// random order.
@@ -182,9 +160,9 @@ class study {
 };
 
 json measure(const effort& much) {
-    auto models = read_all(std::string(CHAPTER5_DATA) + "/furniture");
-    if (models.empty()) return json::object();
-    return study(much, std::move(models)).tables();
+    const std::string folder = std::string(CHAPTER5_DATA) + "/furniture";
+    if (!furniture::is_there(folder)) return json::object();
+    return study(much, furniture::read_all(folder)).tables();
 }
 
 }  // namespace

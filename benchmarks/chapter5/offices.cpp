@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 // A real office, Sec. 5.8.4: chairs and tables of a real scan, recognized by a model that has
-// learned simulated views of other chairs and tables, and of clutter. Once the labeled parts of
-// each object are its segments, and once groups and segments are found by perceive_views.
+// learned simulated views of other chairs and tables, and of clutter. The segments of an object are
+// its labeled parts, or those that perceive_views finds in the group that most of its points are
+// in.
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -16,10 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "furniture_classes.hpp"
 #include "outcomes.hpp"
 #include "views.hpp"
-#include <gnomon/adapters/furniture_file.hpp>
-#include <gnomon/core/random.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/io/label_properties.hpp>
@@ -34,26 +32,16 @@
 namespace {
 
 constexpr std::array<const char*, 3> class_names{"chair", "table", "background"};
-enum : std::uint32_t { chair, table, background };
-
-/// From names of models, such as "ikea_chair_agne_0010" and "round table".
-std::uint32_t class_of(const std::string& name) {
-    const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-    if (has("chair") || has("carver")) return chair;
-    return has("table") || has("desk") ? table : background;
-}
+using furniture::class_of;
+using furniture::other;
 
 /// Furniture of the simulator and of mesh files, office chairs, and clutter.
 std::vector<sim::furniture_model> models_to_learn(std::uint64_t seed) {
     std::vector<sim::furniture_model> models = sim::furniture_models();
-    // A stool is neither, for this purpose.
+    // It is neither chair nor table, and too similar to both to be background.
     std::erase_if(models, [](const auto& m) { return m.name == "stool"; });
-    std::vector<std::string> paths;
-    for (const auto& file :
-         std::filesystem::directory_iterator(std::string(CHAPTER5_DATA) + "/furniture"))
-        if (file.path().extension() == ".obj") paths.push_back(file.path().string());
-    std::ranges::sort(paths);
-    for (const std::string& path : paths) models.push_back(sim::read_furniture(path));
+    for (auto& read : furniture::read_all(std::string(CHAPTER5_DATA) + "/furniture"))
+        models.push_back(std::move(read));
     for (auto& made : sim::office_chairs(8, seed)) models.push_back(std::move(made));
     for (auto& piece : sim::clutter_models(24, seed)) models.push_back(std::move(piece));
     return models;
@@ -115,8 +103,8 @@ rec::view labeled_view(const gnomon::scan& scan, const std::vector<std::int32_t>
 bool is_right(const rec::decision& d, const std::vector<std::string>& names, std::uint32_t truth) {
     const bool is_decided = d.probability[d.best] >= usual_probability;
     const std::string& best = names[d.best];
-    return truth == background ? !is_decided || best == class_names[background]
-                               : is_decided && best == class_names[truth];
+    return truth == other ? !is_decided || best == class_names[other]
+                          : is_decided && best == class_names[truth];
 }
 
 /// What was decided of an object, seed by seed.
@@ -132,9 +120,12 @@ class study {
         scan_ = gnomon::io::read(folder + "tum_office_room1_parts.pcd", {"*"});
         labels_ = gnomon::io::labels_of(scan_);
         objects_ = objects_in(folder + "tum_office_room1_parts.classes.tsv");
-        for (const labeled_object& o : objects_)
+        const auto seen =
+            rec::perceive_views(scan_, {.ground = gnomon::plane{}}, gnomon::threads{});
+        for (const labeled_object& o : objects_) {
             labeled_.push_back(labeled_view(scan_, labels_, o));
-        seen_ = rec::perceive_views(scan_, {.ground = gnomon::plane{}}, gnomon::threads{});
+            own_.push_back(own_view(seen, o));
+        }
         for (std::uint64_t s = 0; s < much.seeds(); ++s) add_seed(first_seed + s);
     }
 
@@ -173,7 +164,7 @@ class study {
             std::size_t asked = 0, right = 0;
             for (std::size_t i = 0; i < tests.views.size(); ++i) {
                 const std::uint32_t truth = class_of(models[tests.classes[i]].name);
-                if (truth == background) continue;
+                if (truth == other) continue;
                 ++asked;
                 if (is_right(model.decide(tests.views[i]), model.names(), truth)) ++right;
             }
@@ -181,21 +172,23 @@ class study {
         }
     }
 
-    /// The objects of the office, by their labeled parts and by the group that most of their points
-    /// are in.
+    /// The view of the group that most points of an object are in; without parts if of none.
+    [[nodiscard]] rec::view own_view(const rec::perceived_views& seen,
+                                     const labeled_object& object) const {
+        std::map<std::int32_t, std::size_t> counts;
+        for (std::size_t i = 0; i < labels_.size(); ++i)
+            if (object.has(labels_[i])) ++counts[seen.groups.labels()[i]];
+        const std::int32_t group =
+            std::ranges::max_element(counts, {}, [](const auto& c) { return c.second; })->first;
+        return group == gnomon::unlabeled ? rec::view{}
+                                          : seen.views[static_cast<std::size_t>(group)];
+    }
+
     void add_office(const rec::object_recognizer<>& model, const std::string& learned) {
         for (std::size_t o = 0; o < objects_.size(); ++o) {
             const std::uint32_t truth = class_of(objects_[o].kind);
             add(model, labeled_[o], truth, found_[{learned, "labeled parts", o}]);
-            std::map<std::int32_t, std::size_t> counts;
-            for (std::size_t i = 0; i < labels_.size(); ++i)
-                if (objects_[o].has(labels_[i])) ++counts[seen_.groups.labels()[i]];
-            const std::int32_t group =
-                std::ranges::max_element(counts, {}, [](const auto& c) { return c.second; })->first;
-            add(model,
-                group == gnomon::unlabeled ? rec::view{}
-                                           : seen_.views[static_cast<std::size_t>(group)],
-                truth, found_[{learned, "own", o}]);
+            add(model, own_[o], truth, found_[{learned, "own", o}]);
         }
     }
 
@@ -203,8 +196,8 @@ class study {
                     decided_object& to) {
         ++to.seeds;
         if (v.parts.empty()) {  // of a wall, or of too few points: no object
-            if (truth == background) ++to.right;
-            to.probability.push_back(truth == background ? 1.0 : 0.0);
+            if (truth == other) ++to.right;
+            to.probability.push_back(truth == other ? 1.0 : 0.0);
             return;
         }
         const rec::decision d = model.decide(v);
@@ -221,7 +214,7 @@ class study {
             for (const char* segments : {"labeled parts", "own"}) {
                 double right = 0.0, asked = 0.0;
                 for (std::size_t o = 0; o < objects_.size(); ++o) {
-                    if (class_of(objects_[o].kind) == background) continue;
+                    if (class_of(objects_[o].kind) == other) continue;
                     const decided_object& d = found_.at({learned, segments, o});
                     right += static_cast<double>(d.right);
                     asked += static_cast<double>(d.seeds);
@@ -241,19 +234,14 @@ class study {
     gnomon::scan scan_;
     std::vector<std::int32_t> labels_;
     std::vector<labeled_object> objects_;
-    std::vector<rec::view> labeled_;
-    rec::perceived_views seen_;
+    std::vector<rec::view> labeled_, own_;  // of the objects
     std::map<std::tuple<std::string, std::string, std::size_t>, decided_object> found_;
     std::map<std::string, std::vector<double>> simulated_;
 };
 
 json measure(const effort& much) {
-    for (const char* folder : {"/furniture", "/segmentation_truth"}) {
-        const std::string path = CHAPTER5_DATA + std::string(folder);
-        if (std::filesystem::is_directory(path)) continue;
-        std::printf("%s is not there: left out\n", path.c_str());
-        return json::object();
-    }
+    for (const char* folder : {"/furniture", "/segmentation_truth"})
+        if (!furniture::is_there(CHAPTER5_DATA + std::string(folder))) return json::object();
     return study(much).tables();
 }
 

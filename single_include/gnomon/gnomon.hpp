@@ -14633,7 +14633,7 @@ template <class Cloud>
                std::abs(of.plane.signed_distance(cloud.offsets[i])) >
                    std::sqrt(of.excess()) * cloud.noise[i].certain_reach(of.plane.normal);
     };
-    return std::count_if(members.begin(), members.end(), is_off) < fewest_off;
+    return std::ranges::count_if(members, is_off) < fewest_off;
 }
 
 /// The number of finite points.
@@ -14695,9 +14695,8 @@ template <class Cloud>
     region = region_along_rays(cloud, members, region);
     e.points = region.sums.count;
     gnomon::plane& plane = region.fit.plane;
-    const auto on_plane = std::find_if(members.begin(), members.end(), [&](point_index i) {
-        return cloud.is_finite(i) && cloud.is_on(i, region.fit);
-    });
+    const auto on_plane = std::ranges::find_if(
+        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, region.fit); });
     if (on_plane != members.end() && dot(plane.normal, cloud.ray(*on_plane)) > 0.0)
         plane = {scaled(-1.0, plane.normal), -plane.offset};
     const auto about = adjustment_of(cloud, members, region.fit);
@@ -14805,7 +14804,8 @@ struct height_histogram {
     }
 };
 
-/// The lowest bin of those that hold most. Precondition: there are bins.
+/// The lowest bin of those that hold most. Precondition: there are bins. (Not std::ranges, which
+/// costs a hundredth of the time to compile all headers.)
 [[nodiscard]] const auto& fullest(const auto& histogram) {
     return *std::max_element(histogram.bins.begin(), histogram.bins.end(),
                              [](const auto& a, const auto& b) { return a.count < b.count; });
@@ -15310,8 +15310,8 @@ class plane_growth {
             refit_at *= 2;
         }
         if (const region_plane f = sums.fit(); f.is_determined) to = f;
-        const auto fitting = std::count_if(members_.begin(), members_.end(),
-                                           [&](point_index i) { return fits(i, to); });
+        const auto fitting =
+            std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
         return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);
     }
 
@@ -26550,7 +26550,7 @@ template <class R, class S, class Normals, execution X, class Proj>
             "align_to_surface: samples of the surface and normals differ in number");
     require(is_rigid(start), "align_to_surface: the start is no rigid motion");
     const auto& team = staying(run);
-    constexpr std::identity as_it_is;  // with a name: g++ 13 takes the index for a part of it
+    constexpr std::identity as_it_is;  // named: g++ 13 warns of a reference to a temporary
     const auto& index = index_of(surface, team, as_it_is);
     const movable_cloud cloud(points, normals, options.noise, projection);
     alignment result;

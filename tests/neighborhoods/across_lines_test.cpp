@@ -53,7 +53,7 @@ TEST(across_lines, measures_the_spacing_of_rays) {
         for (const double across : {1.0, 2.0, 3.0}) {
             const auto points = ground(across, along);
             const spatial_index index(gnomon::with_viewpoint(points, sensor));
-            const gnomon::sequential run;  // with a name, so that g++ 13 sees what it refers to
+            const gnomon::sequential run;  // named: g++ 13 warns of a reference to a temporary
             const auto& spacing = gnomon::detail::directions_of(index, run).spacing();
             EXPECT_NEAR(spacing.across.degrees(), across, 0.02 * across);
             EXPECT_LT(spacing.along.degrees(), 1.01 * along);

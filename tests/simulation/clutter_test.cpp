@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/furnished.hpp"
 #include <gnomon/simulation/clutter.hpp>
 #include <gnomon/simulation/simulate.hpp>
 
@@ -12,11 +13,7 @@ namespace sim = gnomon::simulation;
 
 namespace {
 
-sim::scene clutter_alone(const sim::furniture_model& model) {
-    sim::scene world;
-    sim::add(world, model);
-    return world;
-}
+using furnished::scene_of;
 
 /// More pieces do not change those that are there, and other seeds give others.
 TEST(clutter, depends_on_seed_and_number_only) {
@@ -28,10 +25,10 @@ TEST(clutter, depends_on_seed_and_number_only) {
     for (std::size_t i = 0; i < few.size(); ++i) {
         EXPECT_EQ(few[i].name, many[i].name);
         EXPECT_EQ(few[i].name, others[i].name);
-        const auto extent = clutter_alone(few[i]).extent();
-        EXPECT_EQ(extent.low, clutter_alone(many[i]).extent().low);
-        EXPECT_EQ(extent.high, clutter_alone(many[i]).extent().high);
-        EXPECT_NE(extent.high, clutter_alone(others[i]).extent().high);
+        const auto extent = scene_of(few[i]).extent();
+        EXPECT_EQ(extent.low, scene_of(many[i]).extent().low);
+        EXPECT_EQ(extent.high, scene_of(many[i]).extent().high);
+        EXPECT_NE(extent.high, scene_of(others[i]).extent().high);
         ++kinds[few[i].name];
     }
     EXPECT_EQ(kinds.size(), 6u);
@@ -42,7 +39,7 @@ TEST(clutter, has_the_measures_of_the_real) {
     double highest = 0.0;
     for (const auto& model : sim::clutter_models(160, 7)) {
         SCOPED_TRACE(model.name);
-        const sim::scene world = clutter_alone(model);
+        const sim::scene world = scene_of(model);
         const sim::bounds extent = world.extent();
         EXPECT_NEAR(extent.low.z(), 0.0, model.name == "curtain" ? 0.15 + 1e-9 : 1e-9);
         EXPECT_GE(extent.high.z(), 0.3 - 1e-9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A piece of furniture, chair or table, alone in a scene: its parts and its measures.
+/// A piece of furniture, or a model, alone in a scene: its parts and its measures.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/simulation/bounds.hpp>
+#include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/scene.hpp>
 
 namespace furnished {
@@ -21,6 +22,12 @@ namespace sim = gnomon::simulation;
 sim::scene scene_of(const auto& piece) {
     sim::scene world;
     add(world, "piece", piece);
+    return world;
+}
+
+inline sim::scene scene_of(const sim::furniture_model& model) {
+    sim::scene world;
+    sim::add(world, model);
     return world;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/furnished.hpp"
 #include <gnomon/simulation/object_views.hpp>
 #include <gnomon/simulation/office_chairs.hpp>
 
@@ -11,11 +12,7 @@ namespace sim = gnomon::simulation;
 
 namespace {
 
-sim::scene chair_alone(const sim::furniture_model& model) {
-    sim::scene world;
-    sim::add(world, model);
-    return world;
-}
+using furnished::scene_of;
 
 /// More chairs do not change those that are there, and other seeds give others.
 TEST(office_chairs, depend_on_seed_and_number_only) {
@@ -25,9 +22,9 @@ TEST(office_chairs, depend_on_seed_and_number_only) {
     EXPECT_TRUE(sim::office_chairs(0, 3).empty());
     for (std::size_t i = 0; i < few.size(); ++i) {
         EXPECT_EQ(few[i].name, "office chair");
-        const auto extent = chair_alone(few[i]).extent();
-        EXPECT_EQ(extent.high, chair_alone(many[i]).extent().high);
-        EXPECT_NE(extent.high, chair_alone(others[i]).extent().high);
+        const auto extent = scene_of(few[i]).extent();
+        EXPECT_EQ(extent.high, scene_of(many[i]).extent().high);
+        EXPECT_NE(extent.high, scene_of(others[i]).extent().high);
     }
 }
 
@@ -35,7 +32,7 @@ TEST(office_chairs, depend_on_seed_and_number_only) {
 TEST(office_chairs, have_the_measures_of_the_real) {
     std::set<std::string> parts;
     for (const auto& model : sim::office_chairs(60, 7)) {
-        const sim::scene world = chair_alone(model);
+        const sim::scene world = scene_of(model);
         const sim::bounds extent = world.extent();
         EXPECT_GE(extent.low.z(), 0.0);
         EXPECT_LE(extent.low.z(), 0.05 + 1e-9) << "feet";
@@ -46,7 +43,7 @@ TEST(office_chairs, have_the_measures_of_the_real) {
             EXPECT_GE(extent.low[a], -0.75);
         }
         ASSERT_EQ(world.objects().size(), 1u);
-        for (const auto& part : world.parts()) parts.insert(part.name);
+        parts.merge(furnished::parts_of(model));
     }
     EXPECT_EQ(parts, (std::set<std::string>{"arm", "back", "bar", "column", "foot", "headrest",
                                             "post", "seat"}));

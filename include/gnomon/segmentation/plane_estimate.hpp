@@ -64,7 +64,7 @@ template <class Cloud>
                std::abs(of.plane.signed_distance(cloud.offsets[i])) >
                    std::sqrt(of.excess()) * cloud.noise[i].certain_reach(of.plane.normal);
     };
-    return std::count_if(members.begin(), members.end(), is_off) < fewest_off;
+    return std::ranges::count_if(members, is_off) < fewest_off;
 }
 
 /// The number of finite points.
@@ -126,9 +126,8 @@ template <class Cloud>
     region = region_along_rays(cloud, members, region);
     e.points = region.sums.count;
     gnomon::plane& plane = region.fit.plane;
-    const auto on_plane = std::find_if(members.begin(), members.end(), [&](point_index i) {
-        return cloud.is_finite(i) && cloud.is_on(i, region.fit);
-    });
+    const auto on_plane = std::ranges::find_if(
+        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, region.fit); });
     if (on_plane != members.end() && dot(plane.normal, cloud.ray(*on_plane)) > 0.0)
         plane = {scaled(-1.0, plane.normal), -plane.offset};
     const auto about = adjustment_of(cloud, members, region.fit);

@@ -205,7 +205,7 @@ template <class R, class S, class Normals, execution X, class Proj>
             "align_to_surface: samples of the surface and normals differ in number");
     require(is_rigid(start), "align_to_surface: the start is no rigid motion");
     const auto& team = staying(run);
-    constexpr std::identity as_it_is;  // with a name: g++ 13 takes the index for a part of it
+    constexpr std::identity as_it_is;  // named: g++ 13 warns of a reference to a temporary
     const auto& index = index_of(surface, team, as_it_is);
     const movable_cloud cloud(points, normals, options.noise, projection);
     alignment result;

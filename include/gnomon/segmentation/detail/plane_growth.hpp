@@ -118,8 +118,8 @@ class plane_growth {
             refit_at *= 2;
         }
         if (const region_plane f = sums.fit(); f.is_determined) to = f;
-        const auto fitting = std::count_if(members_.begin(), members_.end(),
-                                           [&](point_index i) { return fits(i, to); });
+        const auto fitting =
+            std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
         return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);
     }
 
