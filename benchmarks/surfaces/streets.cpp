@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,23 +91,63 @@ std::map<std::string, std::vector<std::size_t>> points_by_name(const sim::scene&
     return points;
 }
 
-/// The mean IoU by points of the recovered surfaces that count.
-/// @param counts  counts(name): whether a surface of the scene does
-double iou_by_points(const std::vector<recovered_surface>& all, const joined_surfaces& surfaces,
-                     const std::map<std::string, std::vector<std::size_t>>& points, auto&& counts) {
-    std::set<std::int32_t> counted;
-    for (const auto& [name, of] : points)
-        if (counts(name)) counted.insert(surfaces.of(of.front()));
-    std::vector<recovered_surface> some;
-    for (const recovered_surface& s : all)
-        if (counted.contains(s.surface)) some.push_back(s);
-    return mean_iou(some, true);
+/// The name of the face that most points of each joined surface are of.
+std::map<std::int32_t, std::string> names_of(
+    const std::map<std::string, std::vector<std::size_t>>& points,
+    const joined_surfaces& surfaces) {
+    std::map<std::int32_t, std::pair<std::size_t, std::string>> largest;
+    for (const auto& [name, of] : points) {
+        auto& [most, its_name] = largest[surfaces.of(of.front())];
+        if (of.size() > most) most = of.size(), its_name = name;
+    }
+    std::map<std::int32_t, std::string> names;
+    for (const auto& [surface, face] : largest) names[surface] = face.second;
+    return names;
 }
 
-json row_of(const setting& s, std::uint64_t first, std::uint64_t count) {
+/// What a surface is of, for the table of losses.
+std::string kind_of(const std::string& name) {
+    const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
+    if (name.ends_with("facade/wall")) return "walls of facades";
+    if (has("/facade/")) return "windows, doors";
+    if (has("wheel")) return "wheels";
+    if (has("/body/left") || has("/cabin/left")) return "sides of vehicles";
+    if (has("road") || has("pavement") || has("kerb")) return "ground, kerbs";
+    return "other";
+}
+
+/// The mean IoU by points of recovered surfaces, and how much each kind of them takes from 1.
+struct street_score {
+    double iou = 0.0, of_facades = 0.0;
+    std::map<std::string, double> lost;
+};
+street_score score_of(const std::vector<recovered_surface>& all,
+                      const std::map<std::int32_t, std::string>& names) {
+    std::vector<recovered_surface> counted, facades;
+    double whole = 0.0;
+    for (const recovered_surface& s : all) {
+        const std::string& name = names.at(s.surface);
+        if (name.ends_with("leaves")) continue;
+        counted.push_back(s);
+        if (name.ends_with("facade/wall")) facades.push_back(s);
+        whole += static_cast<double>(s.points);
+    }
+    street_score score{mean_iou(counted, true), mean_iou(facades, true), {}};
+    for (const recovered_surface& s : counted)
+        score.lost[kind_of(names.at(s.surface))] +=
+            static_cast<double>(s.points) * (1.0 - s.iou) / whole;
+    return score;
+}
+
+/// The rows of a setting in both tables.
+struct street_rows {
+    json row, lost;
+};
+street_rows rows_of(const setting& s, std::uint64_t first, std::uint64_t count) {
     double share = 0.0, least = 1.0, iou = 0.0, facades = 0.0, seconds = 0.0, squares = 0.0;
     std::size_t apart = 0, sides = 0, ground = 0, segments = 0;
     std::vector<double> errors;  // [degrees]
+    std::map<std::string, double> lost;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         const sim::scene street = sim::scenes::street({.seed = seed});
         const sim::true_scan truth = sweep(street, s, seed);
@@ -132,12 +171,11 @@ json row_of(const setting& s, std::uint64_t first, std::uint64_t count) {
             ++sides;
             apart += majority(found->second, seen.surfaces).label != of_road.label ? 1 : 0;
         }
-        const auto all = recovered(surfaces, seen.kept, seen.surfaces, 100);
-        iou += iou_by_points(all, surfaces, points,
-                             [](const std::string& name) { return !name.ends_with("leaves"); });
-        facades += iou_by_points(all, surfaces, points, [](const std::string& name) {
-            return name.ends_with("facade/wall");
-        });
+        const street_score score = score_of(recovered(surfaces, seen.kept, seen.surfaces, 100),
+                                            names_of(points, surfaces));
+        iou += score.iou;
+        facades += score.of_facades;
+        for (const auto& [kind, part] : score.lost) lost[kind] += part;
         ground += road.size();
         const gnomon::noise_curve& noise = seen.noise.curve;
         const auto normals = gnomon::estimate_normals(truth.scan, gnomon::ray_knn{.noise = noise},
@@ -149,18 +187,23 @@ json row_of(const setting& s, std::uint64_t first, std::uint64_t count) {
         }
     }
     const auto n = static_cast<double>(count);
-    return {{"sweep", s.name},
-            {"streets", count},
-            {"ground points", ground},
-            {"ground in one segment", rounded(share / n, 3)},
-            {"least", rounded(least, 3)},
-            {"pavements apart", std::to_string(apart) + " of " + std::to_string(sides)},
-            {"IoU by points", rounded(iou / n, 3)},
-            {"of facades", rounded(facades / n, 3)},
-            {"ground normals, RMS [degrees]", rounded(std::sqrt(squares / double(ground)), 1)},
-            {"median", rounded(median_of(errors), 2)},
-            {"segments", rounded(double(segments) / n, 1)},
-            {"time [s]", rounded(seconds / n, 2)}};
+    json losses{{"sweep", s.name}, {"lost", rounded(1.0 - iou / n, 3)}};
+    for (const char* kind : {"windows, doors", "walls of facades", "sides of vehicles", "wheels",
+                             "ground, kerbs", "other"})
+        losses[kind] = rounded(lost[kind] / n, 3);
+    return {{{"sweep", s.name},
+             {"streets", count},
+             {"ground points", ground},
+             {"ground in one segment", rounded(share / n, 3)},
+             {"least", rounded(least, 3)},
+             {"pavements apart", std::to_string(apart) + " of " + std::to_string(sides)},
+             {"IoU by points", rounded(iou / n, 3)},
+             {"of facades", rounded(facades / n, 3)},
+             {"ground normals, RMS [degrees]", rounded(std::sqrt(squares / double(ground)), 1)},
+             {"median", rounded(median_of(errors), 2)},
+             {"segments", rounded(double(segments) / n, 1)},
+             {"time [s]", rounded(seconds / n, 2)}},
+            losses};
 }
 
 /// The points within 15 cm of the plane, of 500 through three of the low points drawn, that has
@@ -223,15 +266,17 @@ json real_sweep() {
 }
 
 json measure(const effort& much) {
-    json rows = json::array();
+    json rows = json::array(), lost = json::array();
     for (const setting& s : settings()) {
-        rows.push_back(row_of(s, 10'001, much.quick ? 1 : 5));
-        std::printf("%s\n", rows.back().dump().c_str());
+        const street_rows both = rows_of(s, 10'001, much.quick ? 1 : 5);
+        rows.push_back(both.row);
+        lost.push_back(both.lost);
+        std::printf("%s\n%s\n", both.row.dump().c_str(), both.lost.dump().c_str());
         std::fflush(stdout);
     }
     json real = real_sweep();
     for (const json& row : real) std::printf("%s\n", row.dump().c_str());
-    return {{"simulated sweeps", rows}, {"a real sweep", real}};
+    return {{"simulated sweeps", rows}, {"where the IoU is lost", lost}, {"a real sweep", real}};
 }
 
 }  // namespace

@@ -131,15 +131,16 @@ labelled ridge(const Eigen::Vector3d& viewpoint, std::uint64_t seed, auto&& heig
     return result;
 }
 
+/// Segments of points seen from a place, by their noise of 2 cm.
+gnomon::segments segments_from(const Eigen::Vector3d& viewpoint, const clouds::cloud& points) {
+    const gnomon::scan scan{points, gnomon::viewpoint_table(viewpoint), {}};
+    const auto graph = knn{30}(scan);
+    const auto surface = gnomon::estimate_normals(scan, graph, plane_pca{});
+    return gnomon::segment_planes(
+        scan, graph, surface, {.noise = constant_noise{0.02}, .max_angle = gnomon::degrees(30)});
+}
+
 TEST(segment_planes, separates_planes_at_a_crease_that_the_noise_hides) {
-    const auto segments_from = [](const Eigen::Vector3d& viewpoint, const clouds::cloud& points) {
-        const gnomon::scan scan{points, gnomon::viewpoint_table(viewpoint), {}};
-        const auto graph = knn{30}(scan);
-        const auto surface = gnomon::estimate_normals(scan, graph, plane_pca{});
-        return gnomon::segment_planes(
-            scan, graph, surface,
-            {.noise = constant_noise{0.02}, .max_angle = gnomon::degrees(30)});
-    };
     const auto roof = [](double x) { return -0.045 * std::abs(x); };  // turned by 5 degrees
     const auto arch = [](double x) { return -0.035 * x * x; };
     const Eigen::Vector3d near(0.0, 0.0, 0.7), far(0.0, 0.0, 5.0);
@@ -156,6 +157,39 @@ TEST(segment_planes, separates_planes_at_a_crease_that_the_noise_hides) {
     // the beginning: planes grow to three deviations.
     EXPECT_GE(whole_arches, 10);
     EXPECT_GE(whole_roofs, 9);
+}
+
+/// The fronts of two houses that are 12 m long together and 2 m high, seen from a place in front of
+/// their middle. The second one, beyond a border, is set back.
+labelled fronts(double away, double border, double set_back, std::uint64_t seed) {
+    labelled result;
+    gnomon::random_stream random(seed);
+    for (int i = 0; i < 3000; ++i) {
+        const double x = random.uniform(-6.0, 6.0), z = random.uniform(-1.0, 1.0);
+        const int house = x < border ? 0 : 1;
+        const Eigen::Vector3d p(x, away + house * set_back, z);
+        result.points.push_back(p + 0.02 * random.gaussian() * p.normalized());
+        result.truth.push_back(house);
+    }
+    return result;
+}
+
+TEST(segment_planes, separates_planes_at_a_step_that_the_noise_hides) {
+    const Eigen::Vector3d origin(0.0, 0.0, 0.0);
+    int whole_fronts = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        for (const double border : {0.0, 2.0, -4.0}) {
+            const labelled houses = fronts(3.0, border, 0.06, seed);
+            const auto parts = segments_from(origin, houses.points);
+            ASSERT_EQ(parts.size(), 2u) << "seed " << seed << ", border " << border;
+            EXPECT_GT(laws::rand_index(parts.labels(), houses.truth), 0.95);
+        }
+        EXPECT_EQ(segments_from(origin, fronts(3.0, 0.0, 0.0, seed).points).size(), 1u);
+        EXPECT_EQ(segments_from(origin, fronts(3.0, 0.0, 0.02, seed).points).size(), 1u);
+        // A camera bends planes.
+        if (segments_from(origin, fronts(9.0, 0.0, 0.06, seed).points).size() == 1) ++whole_fronts;
+    }
+    EXPECT_GE(whole_fronts, 9);
 }
 
 TEST(segment_planes, separates_parallel_planes) {

@@ -61,11 +61,12 @@ template <class Cloud>
     if (!(reach > 0.0)) return std::nullopt;
     constexpr std::size_t pieces = 32;  // numerical: a sixteenth of the reach
     strips<Cloud, pieces> both(cloud, middle.normal, middle.offset - reach, 2.0 * reach / pieces);
-    for (const std::size_t r : {first, second})
-        for (const point_index i : members[r]) both.add(i);
+    for (const std::size_t r : {first, second}) both.add(members[r]);
     double least = std::numeric_limits<double>::infinity();
-    return both.best_cut(
-        min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, true, least);
+    const std::size_t cut = both.best_cut(
+        min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
+    if (cut == 0 || both.is_curved(cut)) return std::nullopt;
+    return plane{middle.normal, both.position(cut)};
 }
 
 }  // namespace gnomon::detail

@@ -5,7 +5,6 @@
 /// better.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -43,17 +42,15 @@ template <class Cloud>
     for (int axis = 0; axis < 2; ++axis) {
         constexpr std::size_t pieces = 8;  // numerical: of sixteen as many planes are found
         const Eigen::Vector3d along = column(principal.vectors, axis);
-        const auto position = [&](point_index i) { return dot(along, cloud.offsets[i]); };
-        double first = position(members.front()), last = first;
-        for (const point_index i : members) {
-            first = std::min(first, position(i));
-            last = std::max(last, position(i));
-        }
+        const auto [first, last] = extent_along(cloud, members, along);
         const double width = (last - first) / static_cast<double>(pieces);
         if (!(width > 0.0)) continue;
-        strips<Cloud, pieces> all(cloud, along, first, width);
-        for (const point_index i : members) all.add(i);
-        if (const auto cut = all.best_cut(min_points, is_edge, reject_curved, least)) best = cut;
+        const strips<Cloud, pieces> all(cloud, along, first, width, members);
+        double squares = least;
+        const std::size_t cut = all.best_cut(min_points, is_edge, squares);
+        if (cut == 0 || (reject_curved && all.is_curved(cut))) continue;
+        best = plane{along, all.position(cut)};
+        least = squares;
     }
     return best;
 }

@@ -61,6 +61,42 @@ namespace gnomon::detail {
     return std::max(a.fit.chi2, b.fit.chi2) <= region_plane::most_excess && are_turned(a, b, least);
 }
 
+/// The variance of the height of the plane of a region at a place [m^2]: that of its mean, and the
+/// more for its tilt, the farther the place is.
+[[nodiscard]] double height_variance(const auto& region, const Eigen::Vector3d& place) {
+    const Eigen::Vector3d away = difference(place, region.fit.centroid);
+    const double squared = dot(away, away);
+    const double spread = dot(away, product(region.sums.positions.covariance(), away));
+    const double leverage = spread > 0.0 ? squared * squared / spread : 0.0;
+    return region.fit.excess() * region.sums.noise_across(region.fit.plane.normal) *
+           (1.0 + leverage);
+}
+
+/// Whether there is a step between two planes: noise explains either of them, though perhaps both
+/// by a common one as well; they do not meet between their centroids; and one is higher than the
+/// other, at both of these, by more than the noise and 1 cm, as no surface is an exact plane, and
+/// by more than three standard deviations more.
+[[nodiscard]] bool are_at_step(const auto& a, const auto& b) {
+    if (!a.fit.is_determined || !b.fit.is_determined) return false;
+    if (std::max(a.fit.chi2, b.fit.chi2) > region_plane::most_excess) return false;
+    const Eigen::Vector3d &n = a.fit.plane.normal, &m = b.fit.plane.normal;
+    const double turn = dot(n, m) < 0.0 ? -1.0 : 1.0;
+    const double at_a = -turn * b.fit.plane.signed_distance(a.fit.centroid);
+    const double at_b = a.fit.plane.signed_distance(b.fit.centroid);
+    if (!(at_a * at_b > 0.0)) return false;
+    const double noise = std::max(a.sums.noise_along(n), b.sums.noise_along(m));
+    const double uncertain =
+        std::max(height_variance(a, b.fit.centroid), height_variance(b, a.fit.centroid));
+    return std::min(std::abs(at_a), std::abs(at_b)) > std::sqrt(noise) +
+                                                          certain_deviations * flatness +
+                                                          most_deviations * std::sqrt(uncertain);
+}
+
+/// Whether noise hides that two regions next to each other are two planes.
+[[nodiscard]] bool are_at_crease_or_step(const auto& a, const auto& b) {
+    return are_at_crease(a, b) || are_at_step(a, b);
+}
+
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
 /// if they may be merged: they do not meet at an edge, and the variance of either about the common
 /// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include <gnomon/core/detail/scratch.hpp>
@@ -24,6 +27,7 @@
 #include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/detail/region_pairs.hpp>
+#include <gnomon/segmentation/detail/step_cut.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -56,34 +60,42 @@ class plane_regions {
     /// Cuts regions at edges, and settles them.
     template <execution X>
     void cut_edges(const X& run) {
-        cut(run, [](const auto& a, const auto& b) { return are_at_edge(a, b); });
+        cut(run, [this](std::span<const point_index> members, const planar_region& whole) {
+            return edge_cut(
+                cloud_, members, whole, min_points_,
+                [](const auto& a, const auto& b) { return are_at_edge(a, b); }, false);
+        });
     }
 
-    /// Cuts regions at creases, and moves the borders between regions to creases, in at most
-    /// `most_rounds` rounds: between two, the competition gives single points near a crease to the
-    /// other side again. From now on a crease keeps regions apart.
+    /// Cuts regions at creases and steps, and moves the borders between regions to creases, in at
+    /// most `most_rounds` rounds: between two, the competition gives single points near a crease to
+    /// the other side again. From now on creases and steps keep regions apart.
     template <execution X>
     void cut_creases(const X& run) {
         keeps_creases_ = true;
-        const auto is_crease = [](const auto& a, const auto& b) { return are_at_crease(a, b); };
+        const auto cut_of = [this](std::span<const point_index> members,
+                                   const planar_region& whole) {
+            const auto at_crease = edge_cut(
+                cloud_, members, whole, min_points_,
+                [](const auto& a, const auto& b) { return are_at_crease(a, b); }, true);
+            return at_crease ? at_crease : step_cut(cloud_, members, whole, min_points_);
+        };
         for (int round = 0; round < most_rounds; ++round) {
-            const bool has_cut = cut(run, is_crease);
+            const bool has_cut = cut(run, cut_of);
             if (!move_to_creases(run) && !has_cut) return;
         }
     }
 
   private:
     /// Cuts regions where two planes explain them better, and settles them.
-    /// @param is_edge  is_edge(part, part): whether their planes meet at an edge
+    /// @param cut_of  cut_of(members, region): an optional plane; the part on its positive side
+    ///                becomes another region
     /// @return whether a region was cut
     template <execution X>
-    bool cut(const X& run, auto&& is_edge) {
+    bool cut(const X& run, auto&& cut_of) {
         const label_groups parts(labels_);
-        const auto cut_of = [&](std::size_t r) {
-            return edge_cut(cloud_, parts[r], regions_[r], min_points_, is_edge, keeps_creases_);
-        };
-        scratch<decltype(cut_of(0))> cuts(parts.size());
-        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(r); });
+        scratch<std::optional<plane>> cuts(parts.size());
+        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(parts[r], regions_[r]); });
         auto next = static_cast<std::int32_t>(regions_.size());
         for (std::size_t r = 0; r < parts.size(); ++r) {
             if (!cuts[r]) continue;
@@ -157,7 +169,7 @@ class plane_regions {
         union_find sets = agglomeration(regions_)(
             std::move(pairs),
             [this](const planar_region& a, const planar_region& b) {
-                return keeps_creases_ && are_at_crease(a, b)
+                return keeps_creases_ && are_at_crease_or_step(a, b)
                            ? std::numeric_limits<double>::infinity()
                            : dissimilarity_of_neighbors(a, b);
             },

@@ -7,15 +7,32 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <span>
+#include <utility>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 
 namespace gnomon::detail {
+
+/// The least and the greatest position of some points of a planar_cloud along a direction, from the
+/// origin of the cloud [m]. Precondition: there are some. (A template, so that only its users
+/// compile it.)
+template <class Cloud>
+[[nodiscard]] std::pair<double, double> extent_along(const Cloud& cloud,
+                                                     std::span<const point_index> members,
+                                                     const Eigen::Vector3d& along) {
+    double first = dot(along, cloud.offsets[members.front()]), last = first;
+    for (const point_index i : members) {
+        const double position = dot(along, cloud.offsets[i]);
+        first = std::min(first, position);
+        last = std::max(last, position);
+    }
+    return {first, last};
+}
 
 /// `count` strips of a width across a direction, of points of a planar_cloud; the first and the
 /// last one have no end.
@@ -28,43 +45,38 @@ class strips {
     /// @param width  of each strip, more than zero [m]
     strips(const Cloud& cloud, const Eigen::Vector3d& along, double first, double width)
         : cloud_(&cloud), along_(along), first_(first), width_(width) {}
+    strips(const Cloud& cloud, const Eigen::Vector3d& along, double first, double width,
+           std::span<const point_index> members)
+        : strips(cloud, along, first, width) {
+        add(members);
+    }
 
-    void add(std::size_t i) { cloud_->add(i, sums_[strip_of(cloud_->offsets[i])]); }
+    void add(std::span<const point_index> members) {
+        for (const point_index i : members) cloud_->add(i, sums_[strip_of(cloud_->offsets[i])]);
+    }
 
-    /// The cut after which two planes explain the points best.
-    /// @param accepts        accepts(side, side): whether these may be two planes
-    /// @param reject_curved  whether there is no cut if a parabola explains the points better
-    /// @param least          the sum of squared deviations from the planes that the cut must be
-    ///                       below; is replaced by that of the cut
-    [[nodiscard]] std::optional<plane> best_cut(std::size_t min_points, auto&& accepts,
-                                                bool reject_curved, double& least) const {
-        double deviations = least;
+    /// The strip before which a cut leaves two planes that explain the points best; 0 if there is
+    /// none.
+    /// @param accepts  accepts(side, side): whether these may be two planes
+    /// @param least    the sum of squared deviations from the planes that the cut must be below; is
+    ///                 replaced by that of the cut
+    [[nodiscard]] std::size_t best_cut(std::size_t min_points, auto&& accepts,
+                                       double& least) const {
         std::size_t best = 0;
         for (std::size_t cut = 1; cut < count; ++cut) {
             const auto [a, b] = sides_of(cut);
             if (std::min(a.sums.summands, b.sums.summands) < min_points || !accepts(a, b)) continue;
             const double both = a.sums.squares(a.fit) + b.sums.squares(b.fit);
-            if (!(both < deviations)) continue;
-            deviations = both;
+            if (!(both < least)) continue;
+            least = both;
             best = cut;
         }
-        if (best == 0 || (reject_curved && is_curved(best))) return std::nullopt;
-        least = deviations;
-        return plane{along_, first_ + width_ * static_cast<double>(best)};
+        return best;
     }
 
-  private:
-    [[nodiscard]] std::size_t strip_of(const Eigen::Vector3d& offset) const {
-        const double strip = (dot(along_, offset) - first_) / width_;
-        return static_cast<std::size_t>(std::clamp(strip, 0.0, static_cast<double>(count - 1)));
-    }
-
-    /// The two sides of a cut before a strip, with their planes.
-    [[nodiscard]] std::array<planar_region, 2> sides_of(std::size_t cut) const {
-        std::array<planar_region, 2> sides;
-        for (std::size_t s = 0; s < count; ++s) sides[s < cut ? 0 : 1].sums.add(sums_[s]);
-        for (planar_region& side : sides) side.fit = side.sums.fit();
-        return sides;
+    /// The position of the cut before a strip.
+    [[nodiscard]] double position(std::size_t cut) const {
+        return first_ + width_ * static_cast<double>(cut);
     }
 
     /// Whether a surface that is curved along the strips, a parabola, explains their means better
@@ -99,6 +111,20 @@ class strips {
         }
         remove(square, height);
         return of_planes > product(height, height);
+    }
+
+  private:
+    [[nodiscard]] std::size_t strip_of(const Eigen::Vector3d& offset) const {
+        const double strip = (dot(along_, offset) - first_) / width_;
+        return static_cast<std::size_t>(std::clamp(strip, 0.0, static_cast<double>(count - 1)));
+    }
+
+    /// The two sides of a cut before a strip, with their planes.
+    [[nodiscard]] std::array<planar_region, 2> sides_of(std::size_t cut) const {
+        std::array<planar_region, 2> sides;
+        for (std::size_t s = 0; s < count; ++s) sides[s < cut ? 0 : 1].sums.add(sums_[s]);
+        for (planar_region& side : sides) side.fit = side.sums.fit();
+        return sides;
     }
 
     /// Of values of the strips, weighted.
