@@ -44,9 +44,9 @@ SECTIONS = [
      "surfaces but leaves, and of the walls of facades, in which openings are 10 to 20 cm deep. Of the real "
      "sweep there is no truth: its ground is what is within 15 cm of the plane through most of the low points, 3 to "
      "40 m away. Wanted are 0.98 of 32 and 64 beams, 0.90 of 16 beams, 0.92 of the real sweep, 0.80 where the noise "
-     "or the view point is wrong; IoU 0.95. The second table says of what the surfaces are in which the IoU is lost: "
-     "windows and doors of a house lie in one plane behind its wall, and are merged as one surface behind an occluder; a wall "
-     "of which the lidar sees the pieces left and right of a door alone is several, as there is free space between; the "
+     "or the view point is wrong; IoU 0.95. The second table lists how much each kind of surface loses: "
+     "openings of a facade lie in one plane behind its wall, and are merged as one surface behind an occluder; a wall "
+     "of which the lidar sees the pieces on both sides of an opening alone is several, as there is free space between; the "
      "wheels of vehicles stand out of their sides by 2 cm, a standard deviation. Ground normals are those of `robust_ray_ls` on `ray_knn`, with the noise of the "
      "chain: wanted are errors of 5 degrees, root mean square, and a median of 1 with 32 beams."),
     ("noise", "Measured noise",

@@ -15494,6 +15494,42 @@ namespace gnomon::detail {
     return std::max(a.fit.chi2, b.fit.chi2) <= region_plane::most_excess && are_turned(a, b, least);
 }
 
+/// The variance of the height of the plane of a region at a place [m^2]: that of its mean, and the
+/// more for its tilt, the farther the place is.
+[[nodiscard]] double height_variance(const auto& region, const Eigen::Vector3d& place) {
+    const Eigen::Vector3d away = difference(place, region.fit.centroid);
+    const double squared = dot(away, away);
+    const double spread = dot(away, product(region.sums.positions.covariance(), away));
+    const double leverage = spread > 0.0 ? squared * squared / spread : 0.0;
+    return region.fit.excess() * region.sums.noise_across(region.fit.plane.normal) *
+           (1.0 + leverage);
+}
+
+/// Whether there is a step between two planes: noise explains either of them, though perhaps both
+/// by a common one as well; they do not meet between their centroids; and one is higher than the
+/// other, at both of these, by more than the noise and 1 cm, as no surface is an exact plane, and
+/// by more than three standard deviations more.
+[[nodiscard]] bool are_at_step(const auto& a, const auto& b) {
+    if (!a.fit.is_determined || !b.fit.is_determined) return false;
+    if (std::max(a.fit.chi2, b.fit.chi2) > region_plane::most_excess) return false;
+    const Eigen::Vector3d &n = a.fit.plane.normal, &m = b.fit.plane.normal;
+    const double turn = dot(n, m) < 0.0 ? -1.0 : 1.0;
+    const double at_a = -turn * b.fit.plane.signed_distance(a.fit.centroid);
+    const double at_b = a.fit.plane.signed_distance(b.fit.centroid);
+    if (!(at_a * at_b > 0.0)) return false;
+    const double noise = std::max(a.sums.noise_along(n), b.sums.noise_along(m));
+    const double uncertain =
+        std::max(height_variance(a, b.fit.centroid), height_variance(b, a.fit.centroid));
+    return std::min(std::abs(at_a), std::abs(at_b)) > std::sqrt(noise) +
+                                                          certain_deviations * flatness +
+                                                          most_deviations * std::sqrt(uncertain);
+}
+
+/// Whether noise hides that two regions next to each other are two planes.
+[[nodiscard]] bool are_at_crease_or_step(const auto& a, const auto& b) {
+    return are_at_crease(a, b) || are_at_step(a, b);
+}
+
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
 /// if they may be merged: they do not meet at an edge, and the variance of either about the common
 /// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
@@ -15536,6 +15572,22 @@ namespace gnomon::detail {
 
 namespace gnomon::detail {
 
+/// The least and the greatest position of some points of a planar_cloud along a direction, from the
+/// origin of the cloud [m]. Precondition: there are some. (A template, so that only its users
+/// compile it.)
+template <class Cloud>
+[[nodiscard]] std::pair<double, double> extent_along(const Cloud& cloud,
+                                                     std::span<const point_index> members,
+                                                     const Eigen::Vector3d& along) {
+    double first = dot(along, cloud.offsets[members.front()]), last = first;
+    for (const point_index i : members) {
+        const double position = dot(along, cloud.offsets[i]);
+        first = std::min(first, position);
+        last = std::max(last, position);
+    }
+    return {first, last};
+}
+
 /// `count` strips of a width across a direction, of points of a planar_cloud; the first and the
 /// last one have no end.
 template <class Cloud, std::size_t count>
@@ -15547,43 +15599,38 @@ class strips {
     /// @param width  of each strip, more than zero [m]
     strips(const Cloud& cloud, const Eigen::Vector3d& along, double first, double width)
         : cloud_(&cloud), along_(along), first_(first), width_(width) {}
+    strips(const Cloud& cloud, const Eigen::Vector3d& along, double first, double width,
+           std::span<const point_index> members)
+        : strips(cloud, along, first, width) {
+        add(members);
+    }
 
-    void add(std::size_t i) { cloud_->add(i, sums_[strip_of(cloud_->offsets[i])]); }
+    void add(std::span<const point_index> members) {
+        for (const point_index i : members) cloud_->add(i, sums_[strip_of(cloud_->offsets[i])]);
+    }
 
-    /// The cut after which two planes explain the points best.
-    /// @param accepts        accepts(side, side): whether these may be two planes
-    /// @param reject_curved  whether there is no cut if a parabola explains the points better
-    /// @param least          the sum of squared deviations from the planes that the cut must be
-    ///                       below; is replaced by that of the cut
-    [[nodiscard]] std::optional<plane> best_cut(std::size_t min_points, auto&& accepts,
-                                                bool reject_curved, double& least) const {
-        double deviations = least;
+    /// The strip before which a cut leaves two planes that explain the points best; 0 if there is
+    /// none.
+    /// @param accepts  accepts(side, side): whether these may be two planes
+    /// @param least    the sum of squared deviations from the planes that the cut must be below; is
+    ///                 replaced by that of the cut
+    [[nodiscard]] std::size_t best_cut(std::size_t min_points, auto&& accepts,
+                                       double& least) const {
         std::size_t best = 0;
         for (std::size_t cut = 1; cut < count; ++cut) {
             const auto [a, b] = sides_of(cut);
             if (std::min(a.sums.summands, b.sums.summands) < min_points || !accepts(a, b)) continue;
             const double both = a.sums.squares(a.fit) + b.sums.squares(b.fit);
-            if (!(both < deviations)) continue;
-            deviations = both;
+            if (!(both < least)) continue;
+            least = both;
             best = cut;
         }
-        if (best == 0 || (reject_curved && is_curved(best))) return std::nullopt;
-        least = deviations;
-        return plane{along_, first_ + width_ * static_cast<double>(best)};
+        return best;
     }
 
-  private:
-    [[nodiscard]] std::size_t strip_of(const Eigen::Vector3d& offset) const {
-        const double strip = (dot(along_, offset) - first_) / width_;
-        return static_cast<std::size_t>(std::clamp(strip, 0.0, static_cast<double>(count - 1)));
-    }
-
-    /// The two sides of a cut before a strip, with their planes.
-    [[nodiscard]] std::array<planar_region, 2> sides_of(std::size_t cut) const {
-        std::array<planar_region, 2> sides;
-        for (std::size_t s = 0; s < count; ++s) sides[s < cut ? 0 : 1].sums.add(sums_[s]);
-        for (planar_region& side : sides) side.fit = side.sums.fit();
-        return sides;
+    /// The position of the cut before a strip.
+    [[nodiscard]] double position(std::size_t cut) const {
+        return first_ + width_ * static_cast<double>(cut);
     }
 
     /// Whether a surface that is curved along the strips, a parabola, explains their means better
@@ -15618,6 +15665,20 @@ class strips {
         }
         remove(square, height);
         return of_planes > product(height, height);
+    }
+
+  private:
+    [[nodiscard]] std::size_t strip_of(const Eigen::Vector3d& offset) const {
+        const double strip = (dot(along_, offset) - first_) / width_;
+        return static_cast<std::size_t>(std::clamp(strip, 0.0, static_cast<double>(count - 1)));
+    }
+
+    /// The two sides of a cut before a strip, with their planes.
+    [[nodiscard]] std::array<planar_region, 2> sides_of(std::size_t cut) const {
+        std::array<planar_region, 2> sides;
+        for (std::size_t s = 0; s < count; ++s) sides[s < cut ? 0 : 1].sums.add(sums_[s]);
+        for (planar_region& side : sides) side.fit = side.sums.fit();
+        return sides;
     }
 
     /// Of values of the strips, weighted.
@@ -15690,11 +15751,12 @@ template <class Cloud>
     if (!(reach > 0.0)) return std::nullopt;
     constexpr std::size_t pieces = 32;  // numerical: a sixteenth of the reach
     strips<Cloud, pieces> both(cloud, middle.normal, middle.offset - reach, 2.0 * reach / pieces);
-    for (const std::size_t r : {first, second})
-        for (const point_index i : members[r]) both.add(i);
+    for (const std::size_t r : {first, second}) both.add(members[r]);
     double least = std::numeric_limits<double>::infinity();
-    return both.best_cut(
-        min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, true, least);
+    const std::size_t cut = both.best_cut(
+        min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
+    if (cut == 0 || both.is_curved(cut)) return std::nullopt;
+    return plane{middle.normal, both.position(cut)};
 }
 
 }  // namespace gnomon::detail
@@ -15729,17 +15791,67 @@ template <class Cloud>
     for (int axis = 0; axis < 2; ++axis) {
         constexpr std::size_t pieces = 8;  // numerical: of sixteen as many planes are found
         const Eigen::Vector3d along = column(principal.vectors, axis);
-        const auto position = [&](point_index i) { return dot(along, cloud.offsets[i]); };
-        double first = position(members.front()), last = first;
-        for (const point_index i : members) {
-            first = std::min(first, position(i));
-            last = std::max(last, position(i));
-        }
+        const auto [first, last] = extent_along(cloud, members, along);
         const double width = (last - first) / static_cast<double>(pieces);
         if (!(width > 0.0)) continue;
-        strips<Cloud, pieces> all(cloud, along, first, width);
-        for (const point_index i : members) all.add(i);
-        if (const auto cut = all.best_cut(min_points, is_edge, reject_curved, least)) best = cut;
+        const strips<Cloud, pieces> all(cloud, along, first, width, members);
+        double squares = least;
+        const std::size_t cut = all.best_cut(min_points, is_edge, squares);
+        if (cut == 0 || (reject_curved && all.is_curved(cut))) continue;
+        best = plane{along, all.position(cut)};
+        least = squares;
+    }
+    return best;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/step_cut.hpp ------------------------------------------------
+
+/// @file
+/// The step within a region: parallel surfaces side by side, as the fronts of two houses, are
+/// within the noise of a common plane if one is hardly higher than the other, and grow into one
+/// region.
+
+namespace gnomon::detail {
+
+/// Where to cut a region in two: across one of its principal axes, where two planes with a step
+/// between them explain the points best. The place is searched for among sixteenths of the extent
+/// of the region, then among sixteenths of the two on both sides of the best place. Only there it
+/// is known whether there is a step, as a few points from its other side turn a plane.
+/// @param cloud       a planar_cloud
+/// @param members     of the region, all finite
+/// @param min_points  the least number of each part
+/// @return nothing if one plane explains them as well, or a curved surface better. O(n). (A
+///         template, so that only its users compile it.)
+template <class Cloud>
+[[nodiscard]] std::optional<plane> step_cut(const Cloud& cloud,
+                                            std::span<const point_index> members,
+                                            const planar_region& whole, std::size_t min_points) {
+    constexpr std::size_t pieces = 16;  // numerical: of eighths, a step at a third is not found
+    if (members.size() < 2 * min_points) return std::nullopt;
+    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    double least = whole.sums.squares(whole.fit);
+    std::optional<plane> best;
+    for (int axis = 0; axis < 2; ++axis) {
+        const Eigen::Vector3d along = column(principal.vectors, axis);
+        const auto [first, last] = extent_along(cloud, members, along);
+        const double width = (last - first) / static_cast<double>(pieces);
+        if (!(width > 0.0)) continue;
+        const strips<Cloud, pieces> wide(cloud, along, first, width, members);
+        double squares = least;
+        const std::size_t about = wide.best_cut(
+            min_points, [](const auto&, const auto&) { return true; }, squares);
+        if (about == 0 || wide.is_curved(about)) continue;
+        const double finer = 2.0 * width / static_cast<double>(pieces);
+        const strips<Cloud, pieces> narrow(cloud, along, wide.position(about) - width, finer,
+                                           members);
+        squares = least;
+        const std::size_t cut = narrow.best_cut(
+            min_points, [](const auto& a, const auto& b) { return are_at_step(a, b); }, squares);
+        if (cut == 0) continue;
+        best = plane{along, narrow.position(cut)};
+        least = squares;
     }
     return best;
 }
@@ -15782,34 +15894,42 @@ class plane_regions {
     /// Cuts regions at edges, and settles them.
     template <execution X>
     void cut_edges(const X& run) {
-        cut(run, [](const auto& a, const auto& b) { return are_at_edge(a, b); });
+        cut(run, [this](std::span<const point_index> members, const planar_region& whole) {
+            return edge_cut(
+                cloud_, members, whole, min_points_,
+                [](const auto& a, const auto& b) { return are_at_edge(a, b); }, false);
+        });
     }
 
-    /// Cuts regions at creases, and moves the borders between regions to creases, in at most
-    /// `most_rounds` rounds: between two, the competition gives single points near a crease to the
-    /// other side again. From now on a crease keeps regions apart.
+    /// Cuts regions at creases and steps, and moves the borders between regions to creases, in at
+    /// most `most_rounds` rounds: between two, the competition gives single points near a crease to
+    /// the other side again. From now on creases and steps keep regions apart.
     template <execution X>
     void cut_creases(const X& run) {
         keeps_creases_ = true;
-        const auto is_crease = [](const auto& a, const auto& b) { return are_at_crease(a, b); };
+        const auto cut_of = [this](std::span<const point_index> members,
+                                   const planar_region& whole) {
+            const auto at_crease = edge_cut(
+                cloud_, members, whole, min_points_,
+                [](const auto& a, const auto& b) { return are_at_crease(a, b); }, true);
+            return at_crease ? at_crease : step_cut(cloud_, members, whole, min_points_);
+        };
         for (int round = 0; round < most_rounds; ++round) {
-            const bool has_cut = cut(run, is_crease);
+            const bool has_cut = cut(run, cut_of);
             if (!move_to_creases(run) && !has_cut) return;
         }
     }
 
   private:
     /// Cuts regions where two planes explain them better, and settles them.
-    /// @param is_edge  is_edge(part, part): whether their planes meet at an edge
+    /// @param cut_of  cut_of(members, region): an optional plane; the part on its positive side
+    ///                becomes another region
     /// @return whether a region was cut
     template <execution X>
-    bool cut(const X& run, auto&& is_edge) {
+    bool cut(const X& run, auto&& cut_of) {
         const label_groups parts(labels_);
-        const auto cut_of = [&](std::size_t r) {
-            return edge_cut(cloud_, parts[r], regions_[r], min_points_, is_edge, keeps_creases_);
-        };
-        scratch<decltype(cut_of(0))> cuts(parts.size());
-        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(r); });
+        scratch<std::optional<plane>> cuts(parts.size());
+        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(parts[r], regions_[r]); });
         auto next = static_cast<std::int32_t>(regions_.size());
         for (std::size_t r = 0; r < parts.size(); ++r) {
             if (!cuts[r]) continue;
@@ -15883,7 +16003,7 @@ class plane_regions {
         union_find sets = agglomeration(regions_)(
             std::move(pairs),
             [this](const planar_region& a, const planar_region& b) {
-                return keeps_creases_ && are_at_crease(a, b)
+                return keeps_creases_ && are_at_crease_or_step(a, b)
                            ? std::numeric_limits<double>::infinity()
                            : dissimilarity_of_neighbors(a, b);
             },
@@ -15966,9 +16086,10 @@ class plane_regions {
 ///
 /// These steps are repeated for the unlabeled points, by twice the angle, as edges blend normals.
 /// Where the noise is independent from point to point, planes that meet at an angle of only 3
-/// degrees are cut apart in the end. It is taken to be so where view points are known and the rays
-/// are not all within 45 degrees of one axis, as those of a depth camera. All lengths
-/// follow from the noise and a flatness of 2 mm, so that no distance need be set.
+/// degrees are cut apart in the end, and planes with a step between them of more than a standard
+/// deviation and 1 cm. It is taken to be so where view points are known and the rays are not all
+/// within 45 degrees of one axis, as those of a depth camera. All lengths follow from the noise and
+/// a flatness of 2 mm, so that no distance need be set.
 
 namespace gnomon {
 
@@ -16398,7 +16519,8 @@ struct observation_count {
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
 /// a gap must be; narrow gaps are closed without evidence (merge_occluded_options::max_gap), and
-/// one observation of free space keeps any gap open, unless the policy merges even there.
+/// one line on which free space was observed keeps any gap open, unless the policy merges even
+/// there.
 template <class M>
 concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
@@ -16434,11 +16556,12 @@ template <merge_policy M>
     return in_favor > against;
 }
 
-/// Whether a line alone keeps a gap open: free space was observed on it, whatever else was
-/// observed.
+/// Whether a line alone keeps a gap open: free space was observed on it, and the surface itself not
+/// twice as often, or more. There, as on a road, rays that graze the surface seem to see beyond it.
 template <merge_policy M>
 [[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
-    return seen[observation::free_space] > 0 && !policy(observation::free_space);
+    return 2 * seen[observation::free_space] > seen[observation::on_surface] &&
+           !policy(observation::free_space);
 }
 
 }  // namespace detail

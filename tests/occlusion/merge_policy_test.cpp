@@ -71,13 +71,14 @@ TEST(merge_policies, weigh_the_places_of_a_line) {
 TEST(merge_policies, keep_a_gap_open_that_is_seen_through_at_one_place) {
     // Unseen, closer, level, farther.
     for (const observation_count& seen :
-         {observation_count{{0, 9, 0, 1}}, observation_count{{0, 8, 0, 1}},
-          observation_count{{0, 98, 0, 2}}}) {
+         {observation_count{{0, 9, 0, 1}}, observation_count{{0, 8, 1, 1}},
+          observation_count{{0, 98, 3, 2}}}) {
         EXPECT_TRUE(keeps_open(conservative{}, seen));
         EXPECT_TRUE(keeps_open(liberal{}, seen));
     }
     for (const observation_count& seen :
-         {observation_count{{0, 9, 0, 0}}, observation_count{{9, 0, 9, 0}}}) {
+         {observation_count{{0, 9, 0, 0}}, observation_count{{9, 0, 9, 0}},
+          observation_count{{47, 0, 26, 1}}, observation_count{{9, 9, 4, 2}}}) {
         EXPECT_FALSE(keeps_open(conservative{}, seen));
         EXPECT_FALSE(keeps_open(liberal{}, seen));
     }

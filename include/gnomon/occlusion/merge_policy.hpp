@@ -44,7 +44,8 @@ struct observation_count {
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
 /// a gap must be; narrow gaps are closed without evidence (merge_occluded_options::max_gap), and
-/// one observation of free space keeps any gap open, unless the policy merges even there.
+/// one line on which free space was observed keeps any gap open, unless the policy merges even
+/// there.
 template <class M>
 concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
@@ -80,11 +81,12 @@ template <merge_policy M>
     return in_favor > against;
 }
 
-/// Whether a line alone keeps a gap open: free space was observed on it, whatever else was
-/// observed.
+/// Whether a line alone keeps a gap open: free space was observed on it, and the surface itself not
+/// twice as often, or more. There, as on a road, rays that graze the surface seem to see beyond it.
 template <merge_policy M>
 [[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
-    return seen[observation::free_space] > 0 && !policy(observation::free_space);
+    return 2 * seen[observation::free_space] > seen[observation::on_surface] &&
+           !policy(observation::free_space);
 }
 
 }  // namespace detail

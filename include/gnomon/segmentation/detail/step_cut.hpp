@@ -33,8 +33,7 @@ template <class Cloud>
 [[nodiscard]] std::optional<plane> step_cut(const Cloud& cloud,
                                             std::span<const point_index> members,
                                             const planar_region& whole, std::size_t min_points) {
-    // Numerical: among eighths, a step at a third of the extent is not found.
-    constexpr std::size_t pieces = 16;
+    constexpr std::size_t pieces = 16;  // numerical: of eighths, a step at a third is not found
     if (members.size() < 2 * min_points) return std::nullopt;
     const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
     double least = whole.sums.squares(whole.fit);
