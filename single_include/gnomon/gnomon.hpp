@@ -15525,7 +15525,8 @@ namespace gnomon::detail {
                                                           most_deviations * std::sqrt(uncertain);
 }
 
-/// Whether noise hides that two regions next to each other are two planes.
+/// Whether two planes that are next to each other must not become one, though noise may explain
+/// both by one.
 [[nodiscard]] bool are_at_crease_or_step(const auto& a, const auto& b) {
     return are_at_crease(a, b) || are_at_step(a, b);
 }
@@ -15572,22 +15573,6 @@ namespace gnomon::detail {
 
 namespace gnomon::detail {
 
-/// The least and the greatest position of some points of a planar_cloud along a direction, from the
-/// origin of the cloud [m]. Precondition: there are some. (A template, so that only its users
-/// compile it.)
-template <class Cloud>
-[[nodiscard]] std::pair<double, double> extent_along(const Cloud& cloud,
-                                                     std::span<const point_index> members,
-                                                     const Eigen::Vector3d& along) {
-    double first = dot(along, cloud.offsets[members.front()]), last = first;
-    for (const point_index i : members) {
-        const double position = dot(along, cloud.offsets[i]);
-        first = std::min(first, position);
-        last = std::max(last, position);
-    }
-    return {first, last};
-}
-
 /// `count` strips of a width across a direction, of points of a planar_cloud; the first and the
 /// last one have no end.
 template <class Cloud, std::size_t count>
@@ -15628,9 +15613,15 @@ class strips {
         return best;
     }
 
-    /// The position of the cut before a strip.
-    [[nodiscard]] double position(std::size_t cut) const {
-        return first_ + width_ * static_cast<double>(cut);
+    /// The cut before a strip.
+    [[nodiscard]] plane cut_before(std::size_t strip) const {
+        return {along_, first_ + width_ * static_cast<double>(strip)};
+    }
+
+    /// As many strips in the place of the two on both sides of a cut.
+    [[nodiscard]] strips finer(std::size_t cut, std::span<const point_index> members) const {
+        return strips(*cloud_, along_, first_ + width_ * (static_cast<double>(cut) - 1.0),
+                      2.0 * width_ / static_cast<double>(count), members);
     }
 
     /// Whether a surface that is curved along the strips, a parabola, explains their means better
@@ -15703,6 +15694,27 @@ class strips {
     std::array<plane_sums, count> sums_{};
 };
 
+/// Calls each(strips) for the two principal axes of a region in its plane: `count` strips of its
+/// members across the axis, over all of their extent. O(n). (A template, so that only its users
+/// compile it.)
+/// @param members  of the region, all finite; some
+template <std::size_t count, class Cloud>
+void for_each_axis(const Cloud& cloud, std::span<const point_index> members,
+                   const planar_region& whole, auto&& each) {
+    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    for (int axis = 0; axis < 2; ++axis) {
+        const Eigen::Vector3d along = column(principal.vectors, axis);
+        double first = dot(along, cloud.offsets[members.front()]), last = first;
+        for (const point_index i : members) {
+            const double position = dot(along, cloud.offsets[i]);
+            first = std::min(first, position);
+            last = std::max(last, position);
+        }
+        const double width = (last - first) / static_cast<double>(count);
+        if (width > 0.0) each(strips<Cloud, count>(cloud, along, first, width, members));
+    }
+}
+
 }  // namespace gnomon::detail
 
 // -------- gnomon/segmentation/detail/crease_cut.hpp ----------------------------------------------
@@ -15756,7 +15768,7 @@ template <class Cloud>
     const std::size_t cut = both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
     if (cut == 0 || both.is_curved(cut)) return std::nullopt;
-    return plane{middle.normal, both.position(cut)};
+    return both.cut_before(cut);
 }
 
 }  // namespace gnomon::detail
@@ -15785,22 +15797,16 @@ template <class Cloud>
                                             const planar_region& whole, std::size_t min_points,
                                             auto&& is_edge, bool reject_curved) {
     if (members.size() < 2 * min_points) return std::nullopt;
-    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    constexpr std::size_t pieces = 8;  // numerical: of sixteen as many planes are found
     double least = whole.sums.squares(whole.fit);
     std::optional<plane> best;
-    for (int axis = 0; axis < 2; ++axis) {
-        constexpr std::size_t pieces = 8;  // numerical: of sixteen as many planes are found
-        const Eigen::Vector3d along = column(principal.vectors, axis);
-        const auto [first, last] = extent_along(cloud, members, along);
-        const double width = (last - first) / static_cast<double>(pieces);
-        if (!(width > 0.0)) continue;
-        const strips<Cloud, pieces> all(cloud, along, first, width, members);
+    for_each_axis<pieces>(cloud, members, whole, [&](const auto& all) {
         double squares = least;
         const std::size_t cut = all.best_cut(min_points, is_edge, squares);
-        if (cut == 0 || (reject_curved && all.is_curved(cut))) continue;
-        best = plane{along, all.position(cut)};
+        if (cut == 0 || (reject_curved && all.is_curved(cut))) return;
+        best = all.cut_before(cut);
         least = squares;
-    }
+    });
     return best;
 }
 
@@ -15828,31 +15834,23 @@ template <class Cloud>
 [[nodiscard]] std::optional<plane> step_cut(const Cloud& cloud,
                                             std::span<const point_index> members,
                                             const planar_region& whole, std::size_t min_points) {
-    constexpr std::size_t pieces = 16;  // numerical: of eighths, a step at a third is not found
     if (members.size() < 2 * min_points) return std::nullopt;
-    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    constexpr std::size_t pieces = 16;  // numerical: of eighths, a step at a third is not found
     double least = whole.sums.squares(whole.fit);
     std::optional<plane> best;
-    for (int axis = 0; axis < 2; ++axis) {
-        const Eigen::Vector3d along = column(principal.vectors, axis);
-        const auto [first, last] = extent_along(cloud, members, along);
-        const double width = (last - first) / static_cast<double>(pieces);
-        if (!(width > 0.0)) continue;
-        const strips<Cloud, pieces> wide(cloud, along, first, width, members);
+    for_each_axis<pieces>(cloud, members, whole, [&](const auto& wide) {
         double squares = least;
         const std::size_t about = wide.best_cut(
             min_points, [](const auto&, const auto&) { return true; }, squares);
-        if (about == 0 || wide.is_curved(about)) continue;
-        const double finer = 2.0 * width / static_cast<double>(pieces);
-        const strips<Cloud, pieces> narrow(cloud, along, wide.position(about) - width, finer,
-                                           members);
+        if (about == 0 || wide.is_curved(about)) return;
+        const auto narrow = wide.finer(about, members);
         squares = least;
         const std::size_t cut = narrow.best_cut(
             min_points, [](const auto& a, const auto& b) { return are_at_step(a, b); }, squares);
-        if (cut == 0) continue;
-        best = plane{along, narrow.position(cut)};
+        if (cut == 0) return;
+        best = narrow.cut_before(cut);
         least = squares;
-    }
+    });
     return best;
 }
 

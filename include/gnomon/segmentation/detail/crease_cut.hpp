@@ -66,7 +66,7 @@ template <class Cloud>
     const std::size_t cut = both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
     if (cut == 0 || both.is_curved(cut)) return std::nullopt;
-    return plane{middle.normal, both.position(cut)};
+    return both.cut_before(cut);
 }
 
 }  // namespace gnomon::detail

@@ -9,10 +9,6 @@
 #include <optional>
 #include <span>
 
-#include <Eigen/Core>
-
-#include <gnomon/core/detail/symmetric_eigen.hpp>
-#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
@@ -36,22 +32,16 @@ template <class Cloud>
                                             const planar_region& whole, std::size_t min_points,
                                             auto&& is_edge, bool reject_curved) {
     if (members.size() < 2 * min_points) return std::nullopt;
-    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    constexpr std::size_t pieces = 8;  // numerical: of sixteen as many planes are found
     double least = whole.sums.squares(whole.fit);
     std::optional<plane> best;
-    for (int axis = 0; axis < 2; ++axis) {
-        constexpr std::size_t pieces = 8;  // numerical: of sixteen as many planes are found
-        const Eigen::Vector3d along = column(principal.vectors, axis);
-        const auto [first, last] = extent_along(cloud, members, along);
-        const double width = (last - first) / static_cast<double>(pieces);
-        if (!(width > 0.0)) continue;
-        const strips<Cloud, pieces> all(cloud, along, first, width, members);
+    for_each_axis<pieces>(cloud, members, whole, [&](const auto& all) {
         double squares = least;
         const std::size_t cut = all.best_cut(min_points, is_edge, squares);
-        if (cut == 0 || (reject_curved && all.is_curved(cut))) continue;
-        best = plane{along, all.position(cut)};
+        if (cut == 0 || (reject_curved && all.is_curved(cut))) return;
+        best = all.cut_before(cut);
         least = squares;
-    }
+    });
     return best;
 }
 

@@ -92,7 +92,8 @@ namespace gnomon::detail {
                                                           most_deviations * std::sqrt(uncertain);
 }
 
-/// Whether noise hides that two regions next to each other are two planes.
+/// Whether two planes that are next to each other must not become one, though noise may explain
+/// both by one.
 [[nodiscard]] bool are_at_crease_or_step(const auto& a, const auto& b) {
     return are_at_crease(a, b) || are_at_step(a, b);
 }

@@ -9,9 +9,6 @@
 #include <optional>
 #include <span>
 
-#include <Eigen/Core>
-
-#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
@@ -33,31 +30,23 @@ template <class Cloud>
 [[nodiscard]] std::optional<plane> step_cut(const Cloud& cloud,
                                             std::span<const point_index> members,
                                             const planar_region& whole, std::size_t min_points) {
-    constexpr std::size_t pieces = 16;  // numerical: of eighths, a step at a third is not found
     if (members.size() < 2 * min_points) return std::nullopt;
-    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    constexpr std::size_t pieces = 16;  // numerical: of eighths, a step at a third is not found
     double least = whole.sums.squares(whole.fit);
     std::optional<plane> best;
-    for (int axis = 0; axis < 2; ++axis) {
-        const Eigen::Vector3d along = column(principal.vectors, axis);
-        const auto [first, last] = extent_along(cloud, members, along);
-        const double width = (last - first) / static_cast<double>(pieces);
-        if (!(width > 0.0)) continue;
-        const strips<Cloud, pieces> wide(cloud, along, first, width, members);
+    for_each_axis<pieces>(cloud, members, whole, [&](const auto& wide) {
         double squares = least;
         const std::size_t about = wide.best_cut(
             min_points, [](const auto&, const auto&) { return true; }, squares);
-        if (about == 0 || wide.is_curved(about)) continue;
-        const double finer = 2.0 * width / static_cast<double>(pieces);
-        const strips<Cloud, pieces> narrow(cloud, along, wide.position(about) - width, finer,
-                                           members);
+        if (about == 0 || wide.is_curved(about)) return;
+        const auto narrow = wide.finer(about, members);
         squares = least;
         const std::size_t cut = narrow.best_cut(
             min_points, [](const auto& a, const auto& b) { return are_at_step(a, b); }, squares);
-        if (cut == 0) continue;
-        best = plane{along, narrow.position(cut)};
+        if (cut == 0) return;
+        best = narrow.cut_before(cut);
         least = squares;
-    }
+    });
     return best;
 }
 

@@ -8,31 +8,16 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <utility>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 
 namespace gnomon::detail {
-
-/// The least and the greatest position of some points of a planar_cloud along a direction, from the
-/// origin of the cloud [m]. Precondition: there are some. (A template, so that only its users
-/// compile it.)
-template <class Cloud>
-[[nodiscard]] std::pair<double, double> extent_along(const Cloud& cloud,
-                                                     std::span<const point_index> members,
-                                                     const Eigen::Vector3d& along) {
-    double first = dot(along, cloud.offsets[members.front()]), last = first;
-    for (const point_index i : members) {
-        const double position = dot(along, cloud.offsets[i]);
-        first = std::min(first, position);
-        last = std::max(last, position);
-    }
-    return {first, last};
-}
 
 /// `count` strips of a width across a direction, of points of a planar_cloud; the first and the
 /// last one have no end.
@@ -74,9 +59,15 @@ class strips {
         return best;
     }
 
-    /// The position of the cut before a strip.
-    [[nodiscard]] double position(std::size_t cut) const {
-        return first_ + width_ * static_cast<double>(cut);
+    /// The cut before a strip.
+    [[nodiscard]] plane cut_before(std::size_t strip) const {
+        return {along_, first_ + width_ * static_cast<double>(strip)};
+    }
+
+    /// As many strips in the place of the two on both sides of a cut.
+    [[nodiscard]] strips finer(std::size_t cut, std::span<const point_index> members) const {
+        return strips(*cloud_, along_, first_ + width_ * (static_cast<double>(cut) - 1.0),
+                      2.0 * width_ / static_cast<double>(count), members);
     }
 
     /// Whether a surface that is curved along the strips, a parabola, explains their means better
@@ -148,5 +139,26 @@ class strips {
     double width_;
     std::array<plane_sums, count> sums_{};
 };
+
+/// Calls each(strips) for the two principal axes of a region in its plane: `count` strips of its
+/// members across the axis, over all of their extent. O(n). (A template, so that only its users
+/// compile it.)
+/// @param members  of the region, all finite; some
+template <std::size_t count, class Cloud>
+void for_each_axis(const Cloud& cloud, std::span<const point_index> members,
+                   const planar_region& whole, auto&& each) {
+    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    for (int axis = 0; axis < 2; ++axis) {
+        const Eigen::Vector3d along = column(principal.vectors, axis);
+        double first = dot(along, cloud.offsets[members.front()]), last = first;
+        for (const point_index i : members) {
+            const double position = dot(along, cloud.offsets[i]);
+            first = std::min(first, position);
+            last = std::max(last, position);
+        }
+        const double width = (last - first) / static_cast<double>(count);
+        if (width > 0.0) each(strips<Cloud, count>(cloud, along, first, width, members));
+    }
+}
 
 }  // namespace gnomon::detail
