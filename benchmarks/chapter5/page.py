@@ -92,9 +92,21 @@ SECTIONS = [
      "ones of the decided objects, a second one on the same piece being wrong; recall is the share of all pieces that "
      "were found; accuracy is the share of right names of all views, background among them; whole is the share of "
      "pieces of which one group has 80 % of the points, and hardly others. Poses are those of right objects of 200 "
-     "points and more, up to the symmetry of the model; times are those of the processor, all threads together."),
+     "points and more, up to the symmetry of the model; NEES are those of poses that are right and that the points "
+     "determine. Times are those of the processor, all threads together; the time of a room is the one that passes, for "
+     "scans of half as many points."),
 ]
 PROGRAMS = [program for program, _, _ in SECTIONS]
+
+
+def processors_of(contexts):
+    """The processors on which the programs ran: times of programs on different ones are not to be compared."""
+    programs = {}
+    for program, context in contexts.items():
+        programs.setdefault(context["processor"], []).append(program)
+    if len(programs) == 1:
+        return next(iter(programs))
+    return "; ".join(f"{processor} ({', '.join(names)})" for processor, names in programs.items())
 
 
 def page(results, verdicts):
@@ -115,7 +127,7 @@ def page(results, verdicts):
         "right ones of the decided views, **missed** the share of undecided ones of all views, **right** that of the "
         "right and decided, and **top 1** that of right best classes, however probable. Views without parts are "
         "missed. ECE is the expected calibration error.", "",
-        f"{context['processor']}, {context['compiler']}, flags `{context['flags']}`. The results of each program are in "
+        f"{processors_of(results.contexts)}, {context['compiler']}, flags `{context['flags']}`. The results of each program are in "
         "[chapter5/](chapter5/), the relations in [chapter5.json](chapter5.json).", "",
         "![Precision by rho, by missed views, and recognition by hidden share](chapter5.png)", "",
         *pages.heading(verdicts)]

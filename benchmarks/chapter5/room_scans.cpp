@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 #include "rooms.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/subset_view.hpp>
@@ -164,15 +166,28 @@ equal_headings equal_headings_of(const std::vector<sim::furniture_model>& models
     return headings;
 }
 
-pose_error error_of(const sim::pose& found, const sim::pose& truth, int headings) {
-    const Eigen::Vector3d up = truth.direction_in(found.direction_out({0.0, 0.0, 1.0}));
-    const Eigen::Vector3d ahead = truth.direction_in(found.direction_out({1.0, 0.0, 0.0}));
+pose_error error_of(const gnomon::alignment& found, const sim::pose& truth, int headings) {
+    const sim::pose between = found.pose.inverse() * truth;
+    const Eigen::Vector3d up = between.direction_out({0.0, 0.0, 1.0});
+    const Eigen::Vector3d ahead = between.direction_out({1.0, 0.0, 0.0});
     double heading = 0.0;
     if (headings > 0)
         heading =
             std::remainder(std::atan2(ahead.y(), ahead.x()), 2.0 * std::numbers::pi / headings);
     const double tilt = std::acos(std::clamp(up.z(), -1.0, 1.0));
-    return {(found.position - truth.position).norm(), std::hypot(heading, tilt)};
+    const Eigen::Vector3d shift = truth.position - found.pose.position;
+    pose_error error{shift.norm(), std::hypot(heading, tilt)};
+    // A round table is never determined by its points: its heading is anything.
+    if (!found.is_usable() && !(headings == 0 && found.determined == 2)) return error;
+    const auto covariance = found.covariance_about(found.pose.position);
+    if (headings > 0) {
+        const Eigen::Vector3d e(heading, shift.x(), shift.y());
+        error.nees = e.dot(covariance.block<3, 3>(2, 2).llt().solve(e)) / 3.0;
+    } else {
+        const Eigen::Vector2d e = shift.head<2>();
+        error.nees = e.dot(covariance.block<2, 2>(3, 3).llt().solve(e)) / 2.0;
+    }
+    return error;
 }
 
 void judgement::add(const judgement& more) {
@@ -218,8 +233,8 @@ judgement judgement_of(const seen_room& room, std::vector<found_object> found,
         if (!is_named || is_found[p]) continue;
         ++result.right;
         is_found[p] = true;
-        if (f.pose && room.pieces[p].points.size() >= enough_for_pose)
-            result.poses.push_back(error_of(*f.pose, room.pieces[p].pose, headings.at(f.name)));
+        if (f.aligned && room.pieces[p].points.size() >= enough_for_pose)
+            result.poses.push_back(error_of(*f.aligned, room.pieces[p].pose, headings.at(f.name)));
     }
     for (std::size_t p = 0; p < room.pieces.size(); ++p) {
         if (room.pieces[p].points.size() < fewest_points) continue;

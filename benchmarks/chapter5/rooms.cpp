@@ -4,8 +4,10 @@
 #include "rooms.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,16 +99,20 @@ class voting {
         finder_.fit(gnomon::threads{});
     }
 
+    [[nodiscard]] rec::found_objects find(const gnomon::scan& scan,
+                                          const gnomon::threads& run) const {
+        return finder_(scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}}, run);
+    }
+
     [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
-        const auto result =
-            finder_(scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}}, gnomon::threads{});
+        const auto result = find(scan, gnomon::threads{});
         std::vector<found_object> found;
         for (std::size_t i = 0; i < result.objects.size(); ++i) {
             const rec::found_object& o = result.objects[i];
             found.push_back({.name = finder_.names()[o.object],
                              .probability = o.probability,
                              .points = {result.points[i].begin(), result.points[i].end()},
-                             .pose = o.aligned.pose});
+                             .aligned = o.aligned});
         }
         // What remains of groups is background, if it is the larger part of them.
         for (std::size_t g = 0; g < result.seen.groups.size(); ++g) {
@@ -194,6 +200,16 @@ json row_of(const method_row& row) {
             rounded(static_cast<double>(std::ranges::count_if(all.poses, &pose_error::is_small)) /
                         static_cast<double>(all.poses.size()),
                     3);
+        // Of those that are right: no covariance covers a place on the next slat.
+        std::vector<double> nees;
+        for (const pose_error& e : all.poses)
+            if (e.is_small() && e.nees) nees.push_back(*e.nees);
+        result["of these determined"] = nees.size();
+        if (!nees.empty()) {
+            const double sum = std::accumulate(nees.begin(), nees.end(), 0.0);
+            result["NEES / dof"] = rounded(sum / static_cast<double>(nees.size()), 1);
+            result["NEES / dof, median"] = rounded(median_of(nees), 1);
+        }
     }
     result["s per room"] = rounded(median_of(row.times), 2);
     std::printf("%s\n", result.dump().c_str());
@@ -262,9 +278,32 @@ struct seed_plan {
     }
 };
 
+/// The time from the points of a room to names and poses on two threads, the first rooms of a plan
+/// scanned in half of the time.
+json times_of(const effort& much, const seed_plan& plan) {
+    const auto models = sim::furniture_models();
+    const voting method(much, plan.learning.front());
+    std::vector<double> times;  // [s]
+    std::size_t points = 0;
+    for (std::size_t r = 0; r < std::min<std::size_t>(20, plan.sets.front().rooms); ++r) {
+        const seen_room room = room_of(models, plan.first_room + r, {.duration = 4.0});
+        points = std::max(points, room.truth.scan.size());
+        const auto start = std::chrono::steady_clock::now();
+        (void)method.find(room.truth.scan, gnomon::threads{2});
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        times.push_back(taken.count());
+    }
+    return {{{"rooms", times.size()},
+             {"points", points},
+             {"threads", 2},
+             {"s per room, median", rounded(median_of(times), 2)},
+             {"most", rounded(std::ranges::max(times), 2)}}};
+}
+
 json measure(const effort& much, const seed_plan& plan) {
     const auto models = sim::furniture_models();
     const equal_headings headings = equal_headings_of(models);
+    const json times = times_of(much, plan);  // first, while no other thread runs
     std::vector<room_contents> contents(plan.sets.size());
     std::vector<method_row> rows;
     for (std::size_t s = 0; s < plan.learning.size(); ++s) {
@@ -301,7 +340,10 @@ json measure(const effort& much, const seed_plan& plan) {
     }
     for (const auto& [name, n] : headings)
         turns.push_back({{"model", name}, {"equal headings", n == 0 ? json("all") : json(n)}});
-    return {{"whole rooms", table}, {"contents of the rooms", counts}, {"symmetries", turns}};
+    return {{"whole rooms", table},
+            {"time of a room", times},
+            {"contents of the rooms", counts},
+            {"symmetries", turns}};
 }
 
 }  // namespace

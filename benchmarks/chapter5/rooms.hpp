@@ -26,6 +26,7 @@
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/scan.hpp>
+#include <gnomon/features/alignment.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/true_scan.hpp>
@@ -77,7 +78,8 @@ struct found_object {
     std::string name;          ///< of the most probable class, background among them
     double probability = 0.0;  ///< of that class
     std::vector<gnomon::point_index> points;
-    std::optional<sim::pose> pose = std::nullopt;  ///< of the model, if the method finds poses
+    /// Of the model, if the method finds poses.
+    std::optional<gnomon::alignment> aligned = std::nullopt;
 };
 
 /// A method: it gets a scan, and nothing else.
@@ -94,6 +96,9 @@ using equal_headings = std::map<std::string, int>;
 struct pose_error {
     double distance = 0.0;  ///< of the origins [m]
     double angle = 0.0;     ///< of heading and tilt [rad]
+    /// The squared error of place and heading in stated deviations, per degree of freedom, if the
+    /// points determine these; the heading is not counted where it makes no difference.
+    std::optional<double> nees = std::nullopt;
 
     /// Within 2 cm and 2 degrees.
     [[nodiscard]] bool is_small() const {
@@ -102,7 +107,8 @@ struct pose_error {
 };
 
 /// @param headings  in which the model is the same, 0 for all
-[[nodiscard]] pose_error error_of(const sim::pose& found, const sim::pose& truth, int headings);
+[[nodiscard]] pose_error error_of(const gnomon::alignment& found, const sim::pose& truth,
+                                  int headings);
 
 /// The judgement of some rooms.
 struct judgement {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/rigid_motion.hpp>
@@ -55,7 +56,7 @@ TEST(cast_votes, sum_at_any_pose_as_their_definition_says) {
     for (int p = 0; p < parts; ++p) {
         ground = votes.begin_part(floor_plane, above_floor);
         for (int k = 0; k < 12; ++k) {
-            const plain_vote v{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2),
+            const plain_vote v{random.uniform(-0.6, 0.6), random.uniform(-0.2, 0.2),
                                random.uniform(-0.4, 0.4), random.uniform(0.0, 0.6), p};
             plain.push_back(v);
             votes.add(1, v.x, v.y, v.heading, v.weight);
@@ -69,7 +70,9 @@ TEST(cast_votes, sum_at_any_pose_as_their_definition_says) {
         EXPECT_EQ(votes.at(0, pose), 0.0);
         EXPECT_EQ(votes.at(2, pose), 0.0);  // no such object
     }
-    for (const rec::object_place& p : votes.places())
+    const auto places = votes.places(gnomon::threads{2});
+    EXPECT_FALSE(places.empty());
+    for (const rec::object_place& p : places)
         EXPECT_NEAR(votes.at(p.object, p.pose), p.votes, 1e-9);
 }
 

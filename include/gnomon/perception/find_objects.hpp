@@ -43,9 +43,9 @@
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/object_competition.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
+#include <gnomon/perception/detail/scene_evidence.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
-#include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/learned_views.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_votes.hpp>
@@ -172,24 +172,19 @@ class object_finder {
 
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                           {.edge = perceive_views_options{}.cell}, team);
-        const detail::scene_evidence scene(cells,
-                                           visibility(points, {.noise = noise}, team, projection),
-                                           noise, *result.seen.ground, team);
-        const cast_votes votes = votes_.votes(result.seen.views);
-        auto places = votes.places();
-        for (object_place& p : scene.places(surfaces_, team)) {
-            p.votes = votes.at(p.object, p.pose);
-            places.push_back(p);
-        }
-        std::vector<found_object> hypotheses(places.size());
-        team(places.size(), [&](std::size_t i) {
-            const surface_model& model = surfaces_[places[i].object];
-            hypotheses[i] = scene.improved(scene.hypothesis(places[i], model), model);
-            scene.recognize(hypotheses[i], model, recognizer_, names_[places[i].object]);
+        const detail::scene_evidence scene(
+            cells, visibility(points, {.noise = noise}, team, projection),
+            votes_.votes(result.seen.views), noise, *result.seen.ground, team);
+        auto hypotheses =
+            detail::hypotheses_at(scene.places(surfaces_, team), scene, surfaces_, team);
+        team(hypotheses.size(), [&](std::size_t i) {
+            const std::size_t object = hypotheses[i].object;
+            scene.recognize(hypotheses[i], surfaces_[object], recognizer_, names_[object]);
         });
         std::vector<std::int32_t> of_cell;
         result.objects = detail::winners_of(std::move(hypotheses), scene, surfaces_,
                                             options.min_probability, of_cell, team);
+        detail::settle(result.objects, scene, surfaces_, team);
         std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
         for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_cell[cells.of_point[i]];
         result.points = segments(std::move(labels));

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/recognition/detail/part_place.hpp>
@@ -85,15 +87,22 @@ class cast_votes {
         const Eigen::Vector3d place = ground_.point_in(pose.position);
         const Eigen::Vector3d ahead =
             ground_.direction_in(gnomon::detail::column(pose.rotation, 0));
-        return sum_at(object, {place.x(), place.y(), std::atan2(ahead.y(), ahead.x()), 0.0, 0});
+        std::vector<double> of_part(parts_, 0.0);
+        return sum_at(votes_[object],
+                      {place.x(), place.y(), std::atan2(ahead.y(), ahead.x()), 0.0, 0}, of_part);
     }
 
     /// The places at which most votes agree.
+    /// @param run  `sequential{}` or `threads{n}`; the result does not depend on it
     /// @return of each object those of most votes first
-    /// Complexity: O(v^2) for the v votes of each object.
-    [[nodiscard]] std::vector<object_place> places() const {
+    /// Complexity: O(v (w + p)) for the v votes of each object, w of which are near one of them,
+    /// and p parts.
+    template <execution X = sequential>
+    [[nodiscard]] std::vector<object_place> places(const X& run = {}) const {
+        std::vector<std::vector<object_place>> of_object(votes_.size());
+        run(votes_.size(), [&](std::size_t o) { of_object[o] = maxima_of(o); });
         std::vector<object_place> places;
-        for (std::size_t o = 0; o < votes_.size(); ++o) maxima_of(o, places);
+        for (const auto& some : of_object) places.insert(places.end(), some.begin(), some.end());
         return places;
     }
 
@@ -103,19 +112,19 @@ class cast_votes {
         std::uint32_t part;
     };
 
-    /// The sum of the votes for a place, at most one of each part, whose votes are consecutive.
-    [[nodiscard]] double sum_at(std::size_t object, const vote& place) const {
-        double sum = 0.0, of_part = 0.0;
-        std::uint32_t part = 0;
-        for (const vote& v : votes_[object]) {
-            if (v.part != part) {
-                sum += std::min(of_part, 1.0);
-                of_part = 0.0;
-                part = v.part;
-            }
-            of_part += v.weight * agreement(place, v);
+    static constexpr double most_deviations = 3.0;  // performance only: of votes that agree
+
+    /// The sum of some votes for a place, at most one of each part.
+    /// @param of_part  zero for each part, before and after
+    [[nodiscard]] double sum_at(std::span<const vote> votes, const vote& place,
+                                std::vector<double>& of_part) const {
+        for (const vote& v : votes) of_part[v.part] += v.weight * agreement(place, v);
+        double sum = 0.0;
+        for (double& one : of_part) {
+            sum += std::min(one, 1.0);
+            one = 0.0;
         }
-        return sum + std::min(of_part, 1.0);
+        return sum;
     }
 
     /// How much two votes agree, from 0 to 1.
@@ -123,28 +132,37 @@ class cast_votes {
         const double reach = options_.reach, turn = options_.turn.radians();
         const double dx = (a.x - b.x) / reach, dy = (a.y - b.y) / reach;
         const double across = dx * dx + dy * dy;
-        constexpr double most = 9.0;  // performance only: three deviations
+        constexpr double most = most_deviations * most_deviations;
         if (across > most) return 0.0;
         const double dh = std::remainder(a.heading - b.heading, 2.0 * std::numbers::pi) / turn;
         const double sum = across + dh * dh;
         return sum > most ? 0.0 : std::exp(-0.5 * sum);
     }
 
-    /// Adds the places at which most votes agree.
-    void maxima_of(std::size_t object, std::vector<object_place>& places) const {
-        const std::vector<vote>& votes = votes_[object];
+    /// The places of an object at which most votes agree.
+    [[nodiscard]] std::vector<object_place> maxima_of(std::size_t object) const {
+        std::vector<vote> votes = votes_[object];
+        std::stable_sort(votes.begin(), votes.end(),
+                         [](const vote& a, const vote& b) { return a.x < b.x; });
+        const double reach = most_deviations * options_.reach;
+        std::vector<double> of_part(parts_, 0.0);
         std::vector<std::pair<double, std::size_t>> sums;
-        for (std::size_t i = 0; i < votes.size(); ++i)
-            sums.emplace_back(-sum_at(object, votes[i]), i);
-        std::ranges::sort(sums);
+        auto first = votes.cbegin(), last = first;  // those that may agree with vote i
+        for (std::size_t i = 0; i < votes.size(); ++i) {
+            while (first->x < votes[i].x - reach) ++first;
+            while (last != votes.cend() && last->x <= votes[i].x + reach) ++last;
+            sums.emplace_back(-sum_at({first, last}, votes[i], of_part), i);
+        }
+        std::sort(sums.begin(), sums.end());
+        std::vector<object_place> places;
         std::vector<std::size_t> taken;
         for (const auto& of_vote : sums) {
             const double sum = of_vote.first;
             const std::size_t i = of_vote.second;  // clang 14 captures no binding
             if (-sum < options_.min_votes || taken.size() == options_.most) break;
             constexpr double same = 0.1;  // chosen: two deviations
-            if (std::ranges::any_of(
-                    taken, [&](std::size_t j) { return agreement(votes[i], votes[j]) > same; }))
+            if (std::any_of(taken.begin(), taken.end(),
+                            [&](std::size_t j) { return agreement(votes[i], votes[j]) > same; }))
                 continue;
             taken.push_back(i);
             places.push_back({object,
@@ -152,6 +170,7 @@ class cast_votes {
                                                                 radians(votes[i].heading)),
                               -sum});
         }
+        return places;
     }
 
     part_votes_options options_;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <gnomon/core/point.hpp>
-#include <gnomon/perception/detail/object_hypotheses.hpp>
+#include <gnomon/perception/detail/scene_evidence.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/segmentation/segments.hpp>

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What a scan shows of objects at places: their alignment, verification and probability.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/features/align_to_surface.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/surfel.hpp>
+#include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/object_probability.hpp>
+#include <gnomon/perception/detail/pose_search.hpp>
+#include <gnomon/perception/found_object.hpp>
+#include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/recognition/cast_votes.hpp>
+#include <gnomon/recognition/detail/part_place.hpp>
+#include <gnomon/recognition/detail/points_in_bounds.hpp>
+#include <gnomon/recognition/detail/pose_verifier.hpp>
+#include <gnomon/recognition/object_recognizer.hpp>
+#include <gnomon/recognition/posterior.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/verification.hpp>
+#include <gnomon/recognition/verify_pose.hpp>
+
+namespace gnomon::recognition::detail {
+
+/// The cells of a scan that may be of objects, what the sensor saw elsewhere, and for which places
+/// the parts of the scan vote.
+class scene_evidence {
+  public:
+    /// The probability below which a hypothesis is neither improved nor recognized, and not found.
+    static constexpr double worth = 0.05;  // chosen: a tenth of the one that is usually found
+
+    scene_evidence(const voxel_grid::means& cells, visibility seen, cast_votes votes,
+                   const noise_curve& noise, const plane& ground, const auto& run)
+        : cells_(cells),
+          index_(cells, run),
+          surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
+          seen_(std::move(seen)),
+          votes_(std::move(votes)),
+          noise_(noise),
+          ground_(ground) {}
+
+    /// Places at which objects may stand: those for which parts vote, and others where their
+    /// surface may be.
+    [[nodiscard]] std::vector<object_place> places(std::span<const surface_model> surfaces,
+                                                   const auto& run) const {
+        const rigid_motion frame = ground_motion(ground_, cells_.points.front());
+        std::vector<ground_cell> cells;
+        cells.reserve(cells_.size());
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            cells.push_back({frame.point_in(cells_.points[i]),
+                             is_missing(surface_[i].normal)
+                                 ? ground_cell::of_both_kinds
+                                 : std::abs(frame.direction_in(surface_[i].normal).z())});
+        auto places = votes_.places(run);
+        const auto others = search_poses(cells, frame, seen_, surfaces, run);
+        places.insert(places.end(), others.begin(), others.end());
+        return places;
+    }
+
+    /// How much of a scan and of a model is compared; performance only.
+    struct effort {
+        std::size_t cells;    ///< that are aligned
+        int iterations;       ///< of an alignment
+        std::size_t samples;  ///< that are verified
+    };
+    static constexpr effort rough{100, 15, 150}, careful{600, 50, 1000};
+
+    /// An object, aligned from a pose and verified.
+    [[nodiscard]] found_object aligned(std::size_t object, const rigid_motion& start,
+                                       const surface_model& model, const effort& much) const {
+        constexpr double margin = 0.10;  // [m]: error of votes; chosen: `reach` of these
+        found_object hypothesis;
+        hypothesis.object = object;
+        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
+        std::vector<point_index> inside;
+        for_each_point_in(index_, start, model.low() - around, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
+        if (inside.size() < fewest) return hypothesis;
+        const std::size_t n = std::min(inside.size(), much.cells);
+        std::vector<point_index> some(n);
+        for (std::size_t k = 0; k < n; ++k) some[k] = inside[k * inside.size() / n];
+        std::vector<surface_model::oriented> normals(n);
+        for (std::size_t k = 0; k < n; ++k) normals[k].normal = surface_[some[k]].normal;
+        hypothesis.aligned = align_to_surface(subset_view(cells_, some), normals, model.points(),
+                                              model.normals(), start.inverse(),
+                                              {.noise = noise_,
+                                               .on_ground = true,
+                                               .max_distance = 0.15,
+                                               .max_iterations = much.iterations})
+                                 .inverse();
+        const rigid_motion& pose = hypothesis.aligned.pose;
+        hypothesis.evidence = verify_pose(index_, surface_, seen_, model, pose,
+                                          {.noise = noise_, .most = much.samples});
+        hypothesis.votes = votes_.at(object, pose);
+        hypothesis.probability = probability_of(hypothesis);
+        return hypothesis;
+    }
+
+    /// Corrects the probability of a hypothesis after the points on its surface were recognized;
+    /// without parts all names are as probable.
+    void recognize(found_object& h, const surface_model& model,
+                   const object_recognizer<>& recognizer, const std::string& name) const {
+        if (h.probability < worth) return;
+        constexpr double least = -6.0;  // chosen: 0.25 %, less than one of 200 trees
+        const auto on = cells_on(model, h.aligned.pose);
+        const auto seen = perceive_views(
+            subset_view(cells_, on),
+            {.ground = ground_, .noise = noise_, .gap = infinite_gap, .min_points = fewest});
+        h.log_recognized = -std::log(static_cast<double>(recognizer.classes()));
+        if (!seen.views.empty()) {
+            const auto& names = recognizer.names();
+            const auto at = std::find(names.begin(), names.end(), name);
+            const double p = at == names.end()
+                                 ? 0.0
+                                 : recognizer.decide(seen.views.front())
+                                       .probability[static_cast<std::size_t>(at - names.begin())];
+            h.log_recognized = p > 0.0 ? std::max(least, std::log(p)) : least;
+        }
+        h.probability = probability_of(h);
+    }
+
+    /// Corrects the probability of a hypothesis after other objects have taken cells.
+    /// @param is_left  (i): whether cell i is of no object
+    void update(found_object& h, const surface_model& model, const auto& is_left) const {
+        if (h.probability < worth) return;  // it was not recognized
+        const verification_options how{.noise = noise_};
+        pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
+        verifier.count_points(is_left);
+        const verification& left = verifier.counts();
+        h.evidence.points = left.points;
+        h.evidence.explained = left.explained;
+        h.evidence.near_surface = left.near_surface;
+        h.evidence.on_surface = left.on_surface;
+        h.probability = probability_of(h);
+    }
+
+    /// The cells on the surface of an object.
+    [[nodiscard]] std::vector<point_index> cells_on(const surface_model& model,
+                                                    const rigid_motion& pose) const {
+        constexpr double margin = 0.03;  // [m]; chosen: spacing of samples, and noise
+        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
+        Eigen::Vector3d low = model.low() - around;
+        low.z() = std::max(low.z(), lowest);
+        std::vector<point_index> on;
+        std::vector<neighbor> nearest;
+        for_each_point_in(index_, pose, low, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d& x) {
+                              model.points().nearest_within_into(nearest, x, 1, margin);
+                              if (!nearest.empty()) on.push_back(i);
+                          });
+        std::ranges::sort(on);
+        return on;
+    }
+
+    /// The number of all cells.
+    [[nodiscard]] std::size_t size() const { return cells_.size(); }
+
+  private:
+    static constexpr std::size_t fewest = 20;     // cells, as in views
+    static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
+    static constexpr double lowest = 0.05;        // [m]; as in verifications
+
+    const voxel_grid::means& cells_;
+    spatial_index index_;
+    std::vector<surfel<plane_fit>> surface_;
+    visibility seen_;
+    cast_votes votes_;
+    noise_curve noise_;
+    plane ground_;
+};
+
+}  // namespace gnomon::recognition::detail
