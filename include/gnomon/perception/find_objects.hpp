@@ -139,8 +139,8 @@ class object_finder {
     /// @param run     the result does not depend on it
     /// @return none if no ground was found
     /// @throws std::invalid_argument  for options that are not valid, or before fit()
-    /// Complexity: O(n log n), and O(log n) for each of about 1,000 samples of each hypothesis; at
-    /// most 12 of an object by votes, and 8 by its surface around each 64 m^2.
+    /// Complexity: O(n log n), and O(log n) for each of 150 samples at each place, at most 12 of an
+    /// object by votes and 8 by its surface around each 64 m^2, and of 1,000 where it may stand.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] found_objects operator()(const R& points,

@@ -71,8 +71,8 @@ class cast_votes {
         return ground_;
     }
 
-    /// Adds a vote of the part that was begun. Preconditions: there is one, and `object` is below
-    /// the number of objects.
+    /// Adds a vote of the part that was begun. Preconditions: there is one, `object` is below the
+    /// number of objects, and place, heading and weight are finite.
     /// @param object   its number
     /// @param x, y     of the object's frame on the ground [m]
     /// @param heading  of the object [rad]
