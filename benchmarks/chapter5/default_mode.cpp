@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // The recommended mode, object_recognizer, compared with soft words: fresh views of known models,
 // the meaning of their probabilities, what its pieces contribute, and times.
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -65,19 +64,14 @@ class study {
         const auto models = sim::furniture_models();
         const auto names = names_of(models);
         const std::size_t n = views_per_model(much_);
-        const auto wall = [] {
-            return std::chrono::duration<double>(
-                       std::chrono::steady_clock::now().time_since_epoch())
-                .count();
-        };
-        const double begin = wall(), work = processor_time(CLOCK_PROCESS_CPUTIME_ID);
+        const double begin = wall_time(), work = processor_time(CLOCK_PROCESS_CPUTIME_ID);
         const scan_set scans = scans_of(models, n, {}, seed, purpose::learning);
-        const double simulated = wall();
+        const double simulated = wall_time();
         const view_set training = views_of(with_hidden_parts(scans, seed));
-        const double perceived = wall();
+        const double perceived = wall_time();
         rec::object_recognizer model;
         learn(model, training, names);
-        const double end = wall(), worked = processor_time(CLOCK_PROCESS_CPUTIME_ID) - work;
+        const double end = wall_time(), worked = processor_time(CLOCK_PROCESS_CPUTIME_ID) - work;
         learning_.push_back({{"seed", seed},
                              {"views", scans.scans.size()},
                              {"simulated [s]", rounded(simulated - begin, 1)},

@@ -4,163 +4,33 @@
 #include "rooms.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "outcomes.hpp"
-#include <gnomon/filters/subset.hpp>
+#include "room_methods.hpp"
 #include <gnomon/perception/find_objects.hpp>
-#include <gnomon/perception/perceive_views.hpp>
-#include <gnomon/recognition/learned_views.hpp>
-#include <gnomon/recognition/object_recognizer.hpp>
-#include <gnomon/recognition/view_augmentation.hpp>
-#include <gnomon/simulation/clutter.hpp>
-#include <gnomon/simulation/object_views.hpp>
-#include <gnomon/simulation/sample_surface.hpp>
 
 namespace {
-
-/// What is learned as background: pieces, and views of each.
-constexpr std::size_t background_pieces = 24;
-std::size_t views_of_background(std::size_t views_per_model) {
-    return std::max<std::size_t>(1, 3 * views_per_model / background_pieces);
-}
-
-/// As learn_objects does: each scan, and two versions of it of which a part is hidden, for the
-/// models and for background.
-rec::object_recognizer<> learned(const effort& much, std::uint64_t seed) {
-    const auto models = sim::furniture_models();
-    const std::size_t n = views_per_model(much);
-    const auto seen = [&](const std::vector<sim::furniture_model>& of, std::size_t views,
-                          std::uint64_t s) {
-        return views_of(with_hidden_parts(scans_of(of, views, {}, s, purpose::learning), s));
-    };
-    rec::object_recognizer<> model;
-    learn_views(model, seen(models, n, seed), names_of(models));
-    const auto others = sim::clutter_models(background_pieces, seed);
-    // Other seeds than those of the models, so that their places differ.
-    learn_views(model, seen(others, views_of_background(n), seed + 100'000),
-                std::vector<std::string>(background_pieces, std::string(rec::background_name)));
-    model.fit(gnomon::threads{});
-    return model;
-}
-
-/// The grouping of the thesis: points of at most 10 cm from each other are one object, Sec. 5.5.1.
-class thesis_grouping {
-  public:
-    explicit thesis_grouping(rec::object_recognizer<> model) : model_(std::move(model)) {}
-
-    [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
-        const auto seen = rec::perceive_views(
-            scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}}, gnomon::threads{});
-        std::vector<found_object> found;
-        for (std::size_t v = 0; v < seen.views.size(); ++v) {
-            const rec::decision d = model_.decide(seen.views[v]);
-            found.push_back({.name = model_.names()[d.best],
-                             .probability = d.probability[d.best],
-                             .points = {seen.groups[v].begin(), seen.groups[v].end()}});
-        }
-        return found;
-    }
-
-  private:
-    rec::object_recognizer<> model_;
-};
-
-/// Votes of parts, alignment, verification and competition: `rec::object_finder`.
-class voting {
-  public:
-    voting(const effort& much, std::uint64_t seed) {
-        constexpr double spacing = 0.02;  // of samples of surfaces [m]
-        const auto models = sim::furniture_models();
-        const sim::object_view_options how{.beam = {.sigma = room_kind{}.sigma}, .seed = seed};
-        for (const sim::furniture_model& model : models) {
-            const auto samples = sim::sample_surface(model, {.spacing = spacing});
-            finder_.add(model.name, rec::surface_model(samples, samples, spacing, std::nullopt,
-                                                       &sim::surface_sample::position));
-        }
-        const std::size_t n = views_per_model(much);
-        for (const auto& shot : sim::simulate_object_views(models, n, how))
-            for (const rec::view& v : versions_of(shot, how))
-                finder_.learn(v, shot.pose, shot.model);
-        // Other seeds, as for the other method.
-        auto elsewhere = how;
-        elsewhere.seed += 100'000;
-        for (const auto& shot : sim::simulate_object_views(
-                 sim::clutter_models(background_pieces, seed), views_of_background(n), elsewhere))
-            for (const rec::view& v : versions_of(shot, elsewhere)) finder_.learn_background(v);
-        finder_.fit(gnomon::threads{});
-    }
-
-    [[nodiscard]] rec::found_objects find(const gnomon::scan& scan,
-                                          const gnomon::threads& run) const {
-        return finder_(scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}}, run);
-    }
-
-    [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
-        const auto result = find(scan, gnomon::threads{});
-        std::vector<found_object> found;
-        for (std::size_t i = 0; i < result.objects.size(); ++i) {
-            const rec::found_object& o = result.objects[i];
-            found.push_back({.name = finder_.names()[o.object],
-                             .probability = o.probability,
-                             .points = {result.points[i].begin(), result.points[i].end()},
-                             .aligned = o.aligned});
-        }
-        // What remains of groups is background, if it is the larger part of them.
-        for (std::size_t g = 0; g < result.seen.groups.size(); ++g) {
-            std::vector<gnomon::point_index> rest;
-            for (const gnomon::point_index i : result.seen.groups[g])
-                if (result.points.labels()[i] == gnomon::unlabeled) rest.push_back(i);
-            if (rest.size() >= fewest_points && 2 * rest.size() > result.seen.groups[g].size())
-                found.push_back({.name = std::string(rec::background_name),
-                                 .probability = 1.0,
-                                 .points = std::move(rest)});
-        }
-        return found;
-    }
-
-  private:
-    /// A view, and two versions of its scan of which a part is hidden, as other methods learn.
-    [[nodiscard]] std::vector<rec::view> versions_of(const sim::object_view& shot,
-                                                     const sim::object_view_options& how) {
-        std::vector<rec::view> versions;
-        gnomon::random_stream random(~how.seed, learned_++);
-        for (int version = 0; version < 3; ++version) {
-            gnomon::scan scan = shot.truth.scan;
-            if (version > 0)
-                scan = gnomon::subset(scan, rec::hide_part(scan, how.sensor.position, random));
-            auto seen = rec::perceive_views(scan, {.ground = gnomon::plane{},
-                                                   .noise = gnomon::constant_noise{how.beam.sigma},
-                                                   .gap = rec::infinite_gap,
-                                                   .min_points = fewest_cells});
-            for (rec::view& v : seen.views) versions.push_back(std::move(v));
-        }
-        return versions;
-    }
-
-    rec::object_finder finder_;
-    std::uint64_t learned_ = 0;
-};
 
 /// A method, and the probability from which on its objects are decided.
 struct method {
     std::string name;
-    object_finder find;
+    room_method find;
     double min_probability = 0.90;
 };
 
-std::vector<method> methods_of(const effort& much, std::uint64_t seed) {
-    return {{"thesis grouping", thesis_grouping(learned(much, seed))},
-            {"voting and verification", voting(much, seed),
-             rec::find_objects_options{}.min_probability}};
+/// @param finder  refers to it
+std::vector<method> methods_of(const effort& much, std::uint64_t seed,
+                               const rec::object_finder& finder) {
+    return {
+        {"thesis grouping", thesis_grouping(much, seed)},
+        {"voting and verification", voting(finder), rec::find_objects_options{}.min_probability}};
 }
 
 /// The rooms of a seed.
@@ -280,18 +150,16 @@ struct seed_plan {
 
 /// The time from the points of a room to names and poses on two threads, the first rooms of a plan
 /// scanned in half of the time.
-json times_of(const effort& much, const seed_plan& plan) {
+json times_of(const rec::object_finder& finder, const seed_plan& plan) {
     const auto models = sim::furniture_models();
-    const voting method(much, plan.learning.front());
     std::vector<double> times;  // [s]
     std::size_t points = 0;
     for (std::size_t r = 0; r < std::min<std::size_t>(20, plan.sets.front().rooms); ++r) {
         const seen_room room = room_of(models, plan.first_room + r, {.duration = 4.0});
         points = std::max(points, room.truth.scan.size());
-        const auto start = std::chrono::steady_clock::now();
-        (void)method.find(room.truth.scan, gnomon::threads{2});
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        times.push_back(taken.count());
+        const double start = wall_time();
+        (void)objects_in(room.truth.scan, finder, gnomon::threads{2});
+        times.push_back(wall_time() - start);
     }
     return {{{"rooms", times.size()},
              {"points", points},
@@ -303,11 +171,13 @@ json times_of(const effort& much, const seed_plan& plan) {
 json measure(const effort& much, const seed_plan& plan) {
     const auto models = sim::furniture_models();
     const equal_headings headings = equal_headings_of(models);
-    const json times = times_of(much, plan);  // first, while no other thread runs
+    json times;
     std::vector<room_contents> contents(plan.sets.size());
     std::vector<method_row> rows;
     for (std::size_t s = 0; s < plan.learning.size(); ++s) {
-        const auto methods = methods_of(much, plan.learning[s]);
+        const rec::object_finder finder = finder_of(much, plan.learning[s]);
+        if (s == 0) times = times_of(finder, plan);
+        const auto methods = methods_of(much, plan.learning[s], finder);
         for (std::size_t k = 0; k < plan.sets.size(); ++k) {
             const room_set& set = plan.sets[k];
             const std::size_t first = k * methods.size();

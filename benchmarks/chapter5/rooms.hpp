@@ -83,7 +83,7 @@ struct found_object {
 };
 
 /// A method: it gets a scan, and nothing else.
-using object_finder = std::function<std::vector<found_object>(const gnomon::scan&)>;
+using room_method = std::function<std::vector<found_object>(const gnomon::scan&)>;
 
 /// The number of headings in one turn in which a model is the same, by the name of the model; 0 if
 /// it is the same in all.

@@ -87,9 +87,17 @@ inline constexpr std::size_t fewest_cells = 10;
 [[nodiscard]] view_set views_of(const scan_set& scans,
                                 const std::optional<density>& thesis = std::nullopt);
 
-/// The time of the processor [s]: of this thread, or of all threads.
-[[nodiscard]] inline double processor_time(clockid_t of = CLOCK_THREAD_CPUTIME_ID) {
+/// The time of a clock [s].
+[[nodiscard]] inline double clock_time(clockid_t of) {
     std::timespec t{};
     clock_gettime(of, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
+
+/// The time of the processor [s]: of this thread, or of all threads.
+[[nodiscard]] inline double processor_time(clockid_t of = CLOCK_THREAD_CPUTIME_ID) {
+    return clock_time(of);
+}
+
+/// The time that passes [s].
+[[nodiscard]] inline double wall_time() { return clock_time(CLOCK_MONOTONIC); }

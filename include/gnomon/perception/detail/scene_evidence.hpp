@@ -90,7 +90,8 @@ class scene_evidence {
     /// An object, aligned from a pose and verified.
     [[nodiscard]] found_object aligned(std::size_t object, const rigid_motion& start,
                                        const surface_model& model, const effort& much) const {
-        constexpr double margin = 0.10;  // [m]: error of votes; chosen: `reach` of these
+        constexpr double margin = 0.10;    // [m]: error of votes; chosen: `reach` of these
+        constexpr double farthest = 0.15;  // [m]: between points at first; chosen: more than that
         found_object hypothesis;
         hypothesis.object = object;
         const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
@@ -107,7 +108,7 @@ class scene_evidence {
                                               model.normals(), start.inverse(),
                                               {.noise = noise_,
                                                .on_ground = true,
-                                               .max_distance = 0.15,
+                                               .max_distance = farthest,
                                                .max_iterations = much.iterations})
                                  .inverse();
         const rigid_motion& pose = hypothesis.aligned.pose;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/object_hypotheses.hpp>
+#include <gnomon/perception/detail/scene_evidence.hpp>
+#include <gnomon/recognition/cast_votes.hpp>
+#include <gnomon/simulation.hpp>
+#include <gnomon/simulation/sample_surface.hpp>
+
+namespace rec = gnomon::recognition;
+namespace sim = gnomon::simulation;
+
+namespace {
+
+using gnomon::degrees;
+using gnomon::rigid_motion;
+
+const gnomon::noise_curve scene_noise = gnomon::constant_noise{0.005};
+const rigid_motion where_chair_is = rigid_motion::on_ground(2.0, 0.3, degrees(160));
+
+/// A chair alone on a floor, which votes know nothing of.
+class chair_in_scene {
+  public:
+    chair_in_scene() {
+        const sim::furniture_model chair = sim::furniture_models()[1];
+        const auto samples = sim::sample_surface(chair, {.spacing = 0.02});
+        surfaces_.emplace_back(samples, samples, 0.02, std::nullopt,
+                               &sim::surface_sample::position);
+        sim::scene world;
+        world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
+                         sim::at(2.0, 0.0, 0.0));
+        (void)sim::add(world, chair, where_chair_is);
+        const gnomon::scan scan =
+            sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
+                          sim::scanner{}, {.sigma = 0.005, .seed = 5})
+                .scan;
+        std::vector<gnomon::point_index> above;
+        for (std::size_t i = 0; i < scan.size(); ++i)
+            if (scan.points[i].z() > 0.05) above.push_back(static_cast<gnomon::point_index>(i));
+        cells_ = gnomon::average_voxels(gnomon::subset_view(scan, above), {.edge = 0.01});
+        scene_.emplace(cells_, gnomon::visibility(scan, {.noise = scene_noise}),
+                       rec::cast_votes({}, 1), scene_noise, gnomon::plane{}, gnomon::sequential{});
+    }
+
+    [[nodiscard]] const rec::detail::scene_evidence& scene() const { return *scene_; }
+    [[nodiscard]] const std::vector<rec::surface_model>& surfaces() const { return surfaces_; }
+
+  private:
+    std::vector<rec::surface_model> surfaces_;
+    gnomon::voxel_grid::means cells_;
+    std::optional<rec::detail::scene_evidence> scene_;
+};
+
+double distance_off(const rec::found_object& o) {
+    return (o.aligned.pose.position - where_chair_is.position).norm();
+}
+
+/// Places from which the alignment comes to one pose are one hypothesis, at the pose that fits.
+TEST(object_hypotheses, are_one_at_each_pose) {
+    const chair_in_scene chair;
+    std::vector<rec::object_place> places;
+    for (const double x : {-0.03, 0.0, 0.03})
+        for (const double y : {-0.03, 0.0, 0.03})
+            places.push_back(
+                {0, where_chair_is * rigid_motion::on_ground(x, y, degrees(100.0 * x)), 0.0});
+    const auto found =
+        rec::detail::hypotheses_at(places, chair.scene(), chair.surfaces(), gnomon::threads{2});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LT(distance_off(found[0]), 0.01);
+    EXPECT_GT(found[0].evidence.samples, 500u);  // verified carefully
+}
+
+/// Far from all points there is none.
+TEST(object_hypotheses, are_none_where_nothing_is) {
+    const chair_in_scene chair;
+    const std::vector<rec::object_place> places{
+        {0, rigid_motion::on_ground(9.0, 9.0, degrees(0.0)), 0.0}};
+    EXPECT_TRUE(
+        rec::detail::hypotheses_at(places, chair.scene(), chair.surfaces(), gnomon::sequential{})
+            .empty());
+}
+
+/// What is found settles at the true pose, as probable as before, from one 9 cm away at which
+/// it was left.
+TEST(object_hypotheses, settle_where_they_fit_best) {
+    const chair_in_scene chair;
+    std::vector<rec::found_object> found(1);
+    found[0].aligned.pose = where_chair_is * rigid_motion::on_ground(0.0, 0.09, degrees(0.0));
+    found[0].evidence.samples = found[0].evidence.seen_through = 1000;
+    found[0].probability = 0.7;
+    rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
+    EXPECT_LT(distance_off(found[0]), 0.01);
+    EXPECT_EQ(found[0].probability, 0.7);
+    EXPECT_GT(found[0].evidence.supported, 10 * found[0].evidence.seen_through);
+}
+
+}  // namespace
