@@ -23,7 +23,7 @@ if [ "${1-}" = --matrix ]; then
 fi
 # shellcheck disable=SC2086  # lists of words
 set_up $build_packages $example_packages libgtest-dev libbenchmark-dev libcgal-dev python3 \
-    ccache codespell make pkgconf universal-ctags valgrind -- clang-format-16 libembree-dev \
+    python3-matplotlib ccache codespell make pkgconf universal-ctags valgrind -- clang-format-16 libembree-dev \
     doxygen doxygen-awesome-css
 if [ "${1-}" = --set-up-only ]; then exit 0; fi
 

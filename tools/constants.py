@@ -41,7 +41,8 @@ OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/objec
          "gnomon/perception/find_objects.hpp", "gnomon/perception/detail/object_hypotheses.hpp",
          "gnomon/perception/detail/object_competition.hpp", "gnomon/perception/detail/object_probability.hpp",
          "gnomon/perception/detail/observed_space.hpp", "gnomon/perception/detail/pose_search.hpp",
-         "gnomon/perception/detail/scene_evidence.hpp"}
+         "gnomon/perception/detail/scene_evidence.hpp",
+         "gnomon/perception/detail/whole_beams.hpp"}
 MAX_CHOSEN = 15
 
 # Numbers of formulas: the number is a group of the pattern, which is found in its line. Name, source.

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/filters/subset.hpp>
@@ -23,8 +22,6 @@
 #include <gnomon/simulation/sample_surface.hpp>
 
 namespace {
-
-const gnomon::noise_curve noise_in_rooms = gnomon::constant_noise{room_kind{}.sigma};
 
 /// What is learned as background: pieces, and views of each.
 constexpr std::size_t background_pieces = 24;
@@ -112,7 +109,7 @@ rec::object_finder finder_of(const effort& much, std::uint64_t seed) {
 
 rec::found_objects objects_in(const gnomon::scan& scan, const rec::object_finder& finder,
                               const gnomon::threads& run) {
-    return finder(scan, {.noise = noise_in_rooms}, run);
+    return finder(scan, how_rooms_are_seen, run);
 }
 
 room_method voting(const rec::object_finder& finder) {

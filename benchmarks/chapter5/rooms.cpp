@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "offered_hypotheses.hpp"
 #include "outcomes.hpp"
 #include "room_methods.hpp"
 #include <gnomon/perception/find_objects.hpp>
@@ -174,6 +175,7 @@ json measure(const effort& much, const seed_plan& plan) {
     json times;
     std::vector<room_contents> contents(plan.sets.size());
     std::vector<method_row> rows;
+    std::vector<offered_hypotheses> offers(plan.learning.size());
     for (std::size_t s = 0; s < plan.learning.size(); ++s) {
         const rec::object_finder finder = finder_of(much, plan.learning[s]);
         if (s == 0) times = times_of(finder, plan);
@@ -191,6 +193,7 @@ json measure(const effort& much, const seed_plan& plan) {
                     room_of(models, plan.first_room + 1000 * s + r, {.touching = set.touching});
                 contents[k].times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) - start);
                 contents[k].add(room);
+                if (!set.touching) offers[s].offer(room, finder, plan.first_room + 1000 * s + r);
                 for (std::size_t m = 0; m < methods.size(); ++m) {
                     const double before = processor_time(CLOCK_PROCESS_CPUTIME_ID);
                     auto found = methods[m].find(room.truth.scan);
@@ -211,6 +214,7 @@ json measure(const effort& much, const seed_plan& plan) {
     for (const auto& [name, n] : headings)
         turns.push_back({{"model", name}, {"equal headings", n == 0 ? json("all") : json(n)}});
     return {{"whole rooms", table},
+            {"hypotheses offered at each piece", offers_table(offers)},
             {"time of a room", times},
             {"contents of the rooms", counts},
             {"symmetries", turns}};

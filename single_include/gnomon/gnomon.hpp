@@ -26609,7 +26609,11 @@ class surface_alignment {
                     m.entry = terms_[i].entry;
                     surface_.measure(points_[i], x, pose.rotation, lists_[i], m);
                 }
-                if (terms_[i].is_matched) terms_[i].set(m, arm, lever_, rounding_, options_);
+                if (terms_[i].is_matched) {
+                    terms_[i].set(m, arm, lever_, rounding_, options_);
+                } else {
+                    terms_[i].weight = 0.0;  // it may have had one before
+                }
             }
         });
         residuals_.clear();

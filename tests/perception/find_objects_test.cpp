@@ -153,6 +153,50 @@ TEST(find_objects, finds_nothing_where_nothing_is) {
     EXPECT_EQ(found.points.size(), 0u);
 }
 
+/// The right object is probable at its place, another one there is not.
+TEST(find_objects, verifies_hypotheses_of_others) {
+    const small_room room;
+    const auto near = gnomon::rigid_motion::on_ground(0.05, -0.04, degrees(6));
+    const std::vector<rec::object_place> places{
+        {0, chair_pose * near, 0.0},
+        {1, chair_pose * near, 0.0},
+        {0, table_pose * near, 0.0},
+        {1, table_pose * near, 0.0},
+        {0, gnomon::rigid_motion::on_ground(0.0, 5.0, degrees(0)), 0.0}};  // no points are there
+    const auto& finder = finder_of_two();
+    const auto verified = finder.verify(room.scan, places, {.noise = find_noise});
+    ASSERT_EQ(verified.size(), places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        EXPECT_EQ(verified[i].object, places[i].object);
+        const bool is_right = i == 0 || i == 3;
+        EXPECT_EQ(verified[i].probability > 0.5, is_right) << i;
+    }
+    EXPECT_LT((verified[0].aligned.pose.position - chair_pose.position).norm(), 0.02);
+    EXPECT_LT((verified[3].aligned.pose.position - table_pose.position).norm(), 0.02);
+    EXPECT_EQ(verified[4].probability, 0.0);
+    const auto again = finder.verify(room.scan, places, {.noise = find_noise}, gnomon::threads{3});
+    for (std::size_t i = 0; i < places.size(); ++i)
+        EXPECT_EQ(again[i].probability, verified[i].probability);
+
+    const auto wide = finder.verify(room.scan, places,
+                                    {.noise = find_noise, .divergence = gnomon::radians(0.01)});
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        EXPECT_EQ(wide[i].probability, verified[i].probability);
+        EXPECT_LT((wide[i].aligned.pose.position - verified[i].aligned.pose.position).norm(), 0.02);
+    }
+    EXPECT_EQ(wide[4].aligned.pose.position, places[4].pose.position);  // as no points are there
+
+    EXPECT_TRUE(finder.verify(room.scan, {}, {.noise = find_noise}).empty());
+    const auto nowhere = finder.verify(gnomon::scan{}, places);
+    ASSERT_EQ(nowhere.size(), places.size());
+    EXPECT_EQ(nowhere[0].probability, 0.0);
+    const std::vector<rec::object_place> unknown{{2, chair_pose, 0.0}};
+    EXPECT_THROW(static_cast<void>(finder.verify(room.scan, unknown)), std::invalid_argument);
+    std::vector<rec::object_place> skewed{{0, chair_pose, 0.0}};
+    skewed[0].pose.rotation(0, 1) += 0.5;
+    EXPECT_THROW(static_cast<void>(finder.verify(room.scan, skewed)), std::invalid_argument);
+}
+
 TEST(find_objects, of_no_points_or_no_ground_are_none) {
     const auto none = finder_of_two()(gnomon::scan{});
     EXPECT_TRUE(none.objects.empty());
@@ -187,6 +231,10 @@ TEST(find_objects, refuses_bad_arguments) {
     for (const double p : {-0.1, 1.1, nan})
         EXPECT_THROW(static_cast<void>(finder_of_two()(gnomon::scan{}, {.min_probability = p})),
                      std::invalid_argument);
+    for (const double width : {-0.1, 91.0, nan})
+        EXPECT_THROW(
+            static_cast<void>(finder_of_two()(gnomon::scan{}, {.divergence = degrees(width)})),
+            std::invalid_argument);
 }
 
 }  // namespace

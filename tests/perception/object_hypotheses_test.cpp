@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -31,10 +32,17 @@ using gnomon::rigid_motion;
 const gnomon::noise_curve scene_noise = gnomon::constant_noise{0.005};
 const rigid_motion where_chair_is = rigid_motion::on_ground(2.0, 0.3, degrees(160));
 
-/// A chair alone on a floor, which votes know nothing of.
+constexpr gnomon::angle narrow = degrees(0.0);
+const gnomon::angle wide = gnomon::radians(0.010);
+
+/// A chair alone on a floor, which votes know nothing of, seen by beams of some width.
 class chair_in_scene {
   public:
-    chair_in_scene() {
+    explicit chair_in_scene(gnomon::angle divergence = narrow) {
+        sim::beam beam{.sigma = 0.005, .seed = 5};
+        if (divergence > narrow)
+            beam.footprint = {
+                .divergence = divergence, .sub_rays = 9, .rule = sim::echo_rule::averaged};
         const sim::furniture_model chair = sim::furniture_models()[1];
         const auto samples = sim::sample_surface(chair, {.spacing = 0.02});
         surfaces_.emplace_back(samples, samples, 0.02, std::nullopt,
@@ -45,7 +53,7 @@ class chair_in_scene {
         (void)sim::add(world, chair, where_chair_is);
         const gnomon::scan scan =
             sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
-                          sim::scanner{}, {.sigma = 0.005, .seed = 5})
+                          sim::scanner{}, beam)
                 .scan;
         std::vector<gnomon::point_index> above;
         for (std::size_t i = 0; i < scan.size(); ++i)
@@ -101,10 +109,51 @@ TEST(object_hypotheses, settle_where_they_fit_best) {
     found[0].aligned.pose = where_chair_is * rigid_motion::on_ground(0.0, 0.09, degrees(0.0));
     found[0].evidence.samples = found[0].evidence.seen_through = 1000;
     found[0].probability = 0.7;
-    rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
+    rec::detail::settle(found, chair.scene(), chair.surfaces(), narrow, gnomon::sequential{});
     EXPECT_LT(distance_off(found[0]), 0.01);
     EXPECT_EQ(found[0].probability, 0.7);
     EXPECT_GT(found[0].evidence.supported, 10 * found[0].evidence.seen_through);
+}
+
+/// Beams that average at edges shift the pose away from the sensor. The points that whole beams hit
+/// do not, and their covariance holds.
+TEST(object_hypotheses, settle_by_whole_beams) {
+    const chair_in_scene chair(wide);
+    const auto settled_for = [&](gnomon::angle divergence) {
+        std::vector<rec::found_object> found(1);
+        found[0].aligned.pose = where_chair_is * rigid_motion::on_ground(0.01, 0.0, degrees(1.0));
+        rec::detail::settle(found, chair.scene(), chair.surfaces(), divergence,
+                            gnomon::sequential{});
+        return found[0].aligned;
+    };
+    const auto error_of = [&](const gnomon::alignment& a) {
+        return Eigen::Vector3d(where_chair_is.point_out(a.pose.point_in(a.center)) - a.center);
+    };
+    const auto by_all = settled_for(narrow), by_whole = settled_for(wide);
+    ASSERT_TRUE(by_whole.is_usable());
+    EXPECT_LT(by_whole.points, by_all.points);
+    const Eigen::Vector3d away =
+        Eigen::Vector3d(by_all.center.x(), by_all.center.y(), 0.0).normalized();
+    EXPECT_LT(error_of(by_all).dot(away), -0.001);  // the chair is nearer than estimated
+    EXPECT_LT(error_of(by_whole).norm(), 0.5 * error_of(by_all).norm());
+    for (const int a : {3, 4})
+        EXPECT_LT(std::abs(error_of(by_whole)[a - 3]), 4.0 * std::sqrt(by_whole.covariance(a, a)));
+}
+
+/// Where no whole beam hits the object, it stays where it is, less certain.
+TEST(object_hypotheses, stay_without_whole_beams) {
+    const chair_in_scene chair;
+    std::vector<rec::found_object> sharp(1), blurred(1);
+    sharp[0].aligned.pose = blurred[0].aligned.pose = where_chair_is;
+    const auto settle = [&](auto& found, gnomon::angle divergence) {
+        rec::detail::settle(found, chair.scene(), chair.surfaces(), divergence,
+                            gnomon::sequential{});
+    };
+    settle(sharp, narrow);
+    settle(blurred, degrees(45.0));
+    EXPECT_EQ(blurred[0].aligned.pose.position, sharp[0].aligned.pose.position);
+    for (const int a : {3, 4})
+        EXPECT_GT(blurred[0].aligned.covariance(a, a), sharp[0].aligned.covariance(a, a) + 0.01);
 }
 
 }  // namespace

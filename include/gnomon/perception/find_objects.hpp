@@ -15,6 +15,9 @@
 ///     for (const rec::found_object& o : finder(scan, {.noise = noise}).objects)
 ///         use(finder.names()[o.object], o.aligned.pose, o.probability);
 ///
+/// Hypotheses that come from elsewhere are only aligned and verified: `finder.verify(scan,
+/// places)`.
+///
 /// In no umbrella: include it by name.
 #pragma once
 
@@ -22,17 +25,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/rigid_motion.hpp>
@@ -46,6 +47,7 @@
 #include <gnomon/perception/detail/scene_evidence.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/learned_views.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_votes.hpp>
@@ -54,29 +56,6 @@
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::recognition {
-
-/// How objects are found.
-struct find_objects_options {
-    /// Along the rays; else it is measured, and where it cannot be, that of constant_noise{}.
-    std::optional<noise_curve> noise = std::nullopt;
-    std::optional<plane> ground = std::nullopt;  ///< as in `perceive_views_options`
-    Eigen::Vector3d up{0.0, 0.0, 1.0};           ///< as there
-    /// Of objects that are found, at least 0.05; formula: more probable than not.
-    double min_probability = 0.5;
-
-    /// @throws std::invalid_argument  unless the probability is from 0 to 1
-    void require_valid() const {
-        gnomon::detail::require(min_probability >= 0.0 && min_probability <= 1.0,
-                                "find_objects: a probability is from 0 to 1");
-    }
-};
-
-/// What was found in a scan of n points.
-struct found_objects {
-    std::vector<found_object> objects;  ///< the most probable one first
-    segments points;                    ///< of the n points: those that each object explains
-    perceived_views seen;               ///< groups of points and their parts, objects or not
-};
 
 /// Objects that are known by their surfaces and by views of them, to be found in scans. Objects
 /// stand upright on the ground.
@@ -146,52 +125,111 @@ class object_finder {
     [[nodiscard]] found_objects operator()(const R& points,
                                            const find_objects_options& options = {},
                                            const X& run = {}, Proj projection = {}) const {
+        found_objects result;
+        const auto& team = gnomon::detail::staying(run);
+        result.points = segments(std::vector<std::int32_t>(std::ranges::size(points), unlabeled));
+        result.seen = in_scene(points, options, team, projection, [&](const scene_of& at) {
+            auto hypotheses =
+                detail::hypotheses_at(at.scene.places(surfaces_, team), at.scene, surfaces_, team);
+            team(hypotheses.size(), [&](std::size_t i) { recognize(at.scene, hypotheses[i]); });
+            std::vector<std::int32_t> of_cell;
+            result.objects = detail::winners_of(std::move(hypotheses), at.scene, surfaces_,
+                                                options.min_probability, of_cell, team);
+            detail::settle(result.objects, at.scene, surfaces_, options.divergence, team);
+            std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
+            for (std::size_t i = 0; i < at.points.size(); ++i)
+                labels[at.points[i]] = of_cell[at.cells.of_point[i]];
+            result.points = segments(std::move(labels));
+        });
+        return result;
+    }
+
+    /// Verifies hypotheses of others, such as those of a detector in images: each is aligned with
+    /// the scan from its place, and is as probable as what the scan shows of it. They do not
+    /// compete, and none is left out.
+    /// @param points   as above
+    /// @param places   m objects, each at most 10 cm and 15 degrees from where it is
+    /// @param options  as above; the least probability is not used
+    /// @return m hypotheses in the order of the places; those with too few points, and all if no
+    ///         ground was found, are of probability 0
+    /// @throws std::invalid_argument  as above, or if there is no such object or a pose is no rigid
+    ///                                motion
+    /// Complexity: O(n log n), and O(log n) for each of 1,000 samples of a place.
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] std::vector<found_object> verify(const R& points,
+                                                   std::span<const object_place> places,
+                                                   const find_objects_options& options = {},
+                                                   const X& run = {}, Proj projection = {}) const {
+        using gnomon::detail::require;
+        std::vector<found_object> result(places.size());
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            require(places[i].object < names_.size(), "object_finder: there is no such object");
+            require(is_rigid(places[i].pose), "object_finder: the pose is no rigid motion");
+            result[i].object = places[i].object;
+            result[i].aligned.pose = places[i].pose;
+        }
+        const auto& team = gnomon::detail::staying(run);
+        (void)in_scene(points, options, team, projection, [&](const scene_of& at) {
+            team(places.size(), [&](std::size_t i) {
+                const surface_model& model = surfaces_[places[i].object];
+                found_object& h = result[i];
+                h = detail::aligned_carefully(
+                    at.scene, detail::aligned_roughly(at.scene, places[i], surfaces_), model);
+                recognize(at.scene, h);
+                if (options.divergence > degrees(0.0))
+                    h.aligned = at.scene.by_whole_beams(h.aligned, model, options.divergence);
+            });
+        });
+        return result;
+    }
+
+  private:
+    /// What a scan shows of objects.
+    struct scene_of {
+        const std::vector<point_index>& points;  ///< those in groups, so not of the ground or walls
+        const voxel_grid::means& cells;          ///< of these
+        const detail::scene_evidence& scene;
+    };
+
+    /// Perceives a scan, and calls f(scene_of) unless it has no ground or no groups, or no objects
+    /// are known.
+    template <class R, class Proj>
+    [[nodiscard]] perceived_views in_scene(const R& points, const find_objects_options& options,
+                                           const auto& team, Proj projection, const auto& f) const {
         options.require_valid();
         gnomon::detail::require(is_fitted_ || names_.empty(), "object_finder: fit() it first");
-        const auto& team = gnomon::detail::staying(run);
         noise_curve noise = constant_noise{};
         if (options.noise) {
             noise = *options.noise;
         } else if (const auto measured = measure_noise(points, team, projection); measured.curve) {
             noise = *measured.curve;
         }
-        found_objects result;
         constexpr std::size_t fewest_cells = 20;  // chosen: a stool at 5 m has 60 points
-        result.seen = perceive_views(points,
-                                     {.ground = options.ground,
-                                      .up = options.up,
-                                      .noise = noise,
-                                      .min_points = fewest_cells},
-                                     team, projection);
+        perceived_views seen = perceive_views(points,
+                                              {.ground = options.ground,
+                                               .up = options.up,
+                                               .noise = noise,
+                                               .min_points = fewest_cells},
+                                              team, projection);
         std::vector<point_index> kept;
-        for (std::size_t i = 0; i < result.seen.groups.labels().size(); ++i)
-            if (result.seen.groups.labels()[i] != unlabeled)
-                kept.push_back(static_cast<point_index>(i));
-        result.points = segments(std::vector<std::int32_t>(std::ranges::size(points), unlabeled));
-        if (kept.empty() || !result.seen.ground || names_.empty()) return result;
-
+        for (std::size_t i = 0; i < seen.groups.labels().size(); ++i)
+            if (seen.groups.labels()[i] != unlabeled) kept.push_back(static_cast<point_index>(i));
+        if (kept.empty() || !seen.ground || names_.empty()) return seen;
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                           {.edge = perceive_views_options{}.cell}, team);
-        const detail::scene_evidence scene(
-            cells, visibility(points, {.noise = noise}, team, projection),
-            votes_.votes(result.seen.views), noise, *result.seen.ground, team);
-        auto hypotheses =
-            detail::hypotheses_at(scene.places(surfaces_, team), scene, surfaces_, team);
-        team(hypotheses.size(), [&](std::size_t i) {
-            const std::size_t object = hypotheses[i].object;
-            scene.recognize(hypotheses[i], surfaces_[object], recognizer_, names_[object]);
-        });
-        std::vector<std::int32_t> of_cell;
-        result.objects = detail::winners_of(std::move(hypotheses), scene, surfaces_,
-                                            options.min_probability, of_cell, team);
-        detail::settle(result.objects, scene, surfaces_, team);
-        std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
-        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_cell[cells.of_point[i]];
-        result.points = segments(std::move(labels));
-        return result;
+        const detail::scene_evidence scene(cells,
+                                           visibility(points, {.noise = noise}, team, projection),
+                                           votes_.votes(seen.views), noise, *seen.ground, team);
+        f(scene_of{kept, cells, scene});
+        return seen;
     }
 
-  private:
+    /// Corrects the probability of a hypothesis by the parts of the points on its surface.
+    void recognize(const detail::scene_evidence& scene, found_object& h) const {
+        scene.recognize(h, surfaces_[h.object], recognizer_, names_[h.object]);
+    }
+
     part_votes<> votes_;
     object_recognizer<> recognizer_;  // by the names of the objects
     bool is_fitted_ = false;

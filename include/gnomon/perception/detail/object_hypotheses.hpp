@@ -64,18 +64,29 @@ namespace gnomon::recognition::detail {
            model.symmetry().difference(heading, degrees(0.0)) < turn;
 }
 
+/// A hypothesis that was aligned roughly, improved and aligned carefully.
+[[nodiscard]] inline found_object aligned_carefully(const scene_evidence& scene,
+                                                    const found_object& rough,
+                                                    const surface_model& model) {
+    const rigid_motion start = improved(scene, rough, model, scene_evidence::rough).aligned.pose;
+    return scene.aligned(rough.object, start, model, scene_evidence::careful);
+}
+
+/// An object that may stand at a place: aligned roughly from there.
+[[nodiscard]] inline found_object aligned_roughly(const scene_evidence& scene,
+                                                  const object_place& place,
+                                                  std::span<const surface_model> models) {
+    return scene.aligned(place.object, place.pose, models[place.object], scene_evidence::rough);
+}
+
 /// Hypotheses that are worth it: aligned roughly from all places, then, where several came to one
-/// pose, improved from the most probable of these and aligned carefully.
+/// pose, the most probable of these aligned carefully.
 [[nodiscard]] inline std::vector<found_object> hypotheses_at(std::span<const object_place> places,
                                                              const scene_evidence& scene,
                                                              std::span<const surface_model> models,
                                                              const auto& run) {
     std::vector<found_object> all(places.size()), distinct;
-    run(places.size(), [&](std::size_t i) {
-        const object_place& place = places[i];
-        all[i] =
-            scene.aligned(place.object, place.pose, models[place.object], scene_evidence::rough);
-    });
+    run(places.size(), [&](std::size_t i) { all[i] = aligned_roughly(scene, places[i], models); });
     std::ranges::stable_sort(all, std::greater{}, &found_object::probability);
     for (found_object& h : all) {
         if (h.probability < scene_evidence::worth) break;
@@ -85,20 +96,22 @@ namespace gnomon::recognition::detail {
     }
     run(distinct.size(), [&](std::size_t i) {
         found_object& h = distinct[i];
-        const surface_model& model = models[h.object];
-        const rigid_motion start = improved(scene, h, model, scene_evidence::rough).aligned.pose;
-        h = scene.aligned(h.object, start, model, scene_evidence::careful);
+        h = aligned_carefully(scene, h, models[h.object]);
     });
     return distinct;
 }
 
-/// Moves objects that were found to the poses that fit best, searched carefully. They are as
-/// probable as before.
+/// Moves objects that were found to the poses that fit best, searched carefully, then, if beams
+/// have a width, to those of the points that whole beams hit. They are as probable as before.
+/// @param divergence  full angle of the beams
 inline void settle(std::vector<found_object>& objects, const scene_evidence& scene,
-                   std::span<const surface_model> models, const auto& run) {
+                   std::span<const surface_model> models, angle divergence, const auto& run) {
     run(objects.size(), [&](std::size_t i) {
         found_object& o = objects[i];
-        found_object settled = improved(scene, o, models[o.object], scene_evidence::careful);
+        const surface_model& model = models[o.object];
+        found_object settled = improved(scene, o, model, scene_evidence::careful);
+        if (divergence > radians(0.0))
+            settled.aligned = scene.by_whole_beams(settled.aligned, model, divergence);
         settled.log_recognized = o.log_recognized;
         settled.probability = o.probability;
         o = std::move(settled);

@@ -21,8 +21,10 @@
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/features/align_to_surface.hpp>
+#include <gnomon/features/alignment.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/plane_pca.hpp>
@@ -30,6 +32,7 @@
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
+#include <gnomon/perception/detail/whole_beams.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
@@ -94,29 +97,57 @@ class scene_evidence {
         constexpr double farthest = 0.15;  // [m]: between points at first; chosen: more than that
         found_object hypothesis;
         hypothesis.object = object;
+        hypothesis.aligned.pose = start;
         const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
         std::vector<point_index> inside;
         for_each_point_in(index_, start, model.low() - around, model.high() + around,
                           [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
         if (inside.size() < fewest) return hypothesis;
-        const std::size_t n = std::min(inside.size(), much.cells);
-        std::vector<point_index> some(n);
-        for (std::size_t k = 0; k < n; ++k) some[k] = inside[k * inside.size() / n];
-        std::vector<surface_model::oriented> normals(n);
-        for (std::size_t k = 0; k < n; ++k) normals[k].normal = surface_[some[k]].normal;
-        hypothesis.aligned = align_to_surface(subset_view(cells_, some), normals, model.points(),
-                                              model.normals(), start.inverse(),
-                                              {.noise = noise_,
-                                               .on_ground = true,
-                                               .max_distance = farthest,
-                                               .max_iterations = much.iterations})
-                                 .inverse();
+        hypothesis.aligned = alignment_of(some_of(inside, much.cells), model, start,
+                                          {.noise = noise_,
+                                           .on_ground = true,
+                                           .max_distance = farthest,
+                                           .max_iterations = much.iterations});
         const rigid_motion& pose = hypothesis.aligned.pose;
         hypothesis.evidence = verify_pose(index_, surface_, seen_, model, pose,
                                           {.noise = noise_, .most = much.samples});
         hypothesis.votes = votes_.at(object, pose);
         hypothesis.probability = probability_of(hypothesis);
         return hypothesis;
+    }
+
+    /// The alignment of an object that was found, by the cells that whole beams hit. Where these do
+    /// not determine the pose, or would move it by more than edges shift it, it stays, less certain
+    /// by that.
+    /// @param divergence  full angle of the beams
+    [[nodiscard]] alignment by_whole_beams(const alignment& found, const surface_model& model,
+                                           angle divergence) const {
+        using gnomon::detail::difference, gnomon::detail::direction_of, gnomon::detail::dot;
+        constexpr int rounds = 2;       // chosen: the cells change with the pose
+        constexpr double along = 0.5;   // formula: half of a beam, which edges shift at most
+        constexpr double across = 0.2;  // chosen: of a beam; more is another slat or leg
+        const alignment_options how{
+            .noise = noise_, .on_ground = true, .max_distance = alignment_options{}.last_distance};
+        alignment settled = found;
+        for (int round = 0; round < rounds; ++round) {
+            const rigid_motion pose = settled.pose;
+            const auto whole =
+                whole_beams_at(cells_, index_, surface_, model, pose, divergence, how.max_distance);
+            const auto next = alignment_of(some_of(whole.points, careful.cells), model, pose, how);
+            const Eigen::Vector3d moved =
+                difference(next.pose.point_out(found.pose.point_in(found.center)), found.center);
+            const double by = dot(direction_of(whole.way), moved);
+            const double aside = std::sqrt(std::max(0.0, dot(moved, moved) - by * by));
+            if (!next.is_usable() || !(std::abs(by) < along * whole.widest) ||
+                !(aside < across * whole.widest)) {
+                settled = found;
+                const double shift = across * whole.widest;
+                for (const int a : {3, 4}) settled.covariance(a, a) += shift * shift;
+                break;
+            }
+            settled = next;
+        }
+        return settled;
     }
 
     /// Corrects the probability of a hypothesis after the points on its surface were recognized;
@@ -179,6 +210,26 @@ class scene_evidence {
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
 
   private:
+    /// Evenly chosen ones, in their order.
+    [[nodiscard]] static std::vector<point_index> some_of(const std::vector<point_index>& all,
+                                                          std::size_t most) {
+        const std::size_t n = std::min(all.size(), most);
+        std::vector<point_index> some(n);
+        for (std::size_t k = 0; k < n; ++k) some[k] = all[k * all.size() / n];
+        return some;
+    }
+
+    /// Aligns some cells with the surface of an object.
+    [[nodiscard]] alignment alignment_of(const std::vector<point_index>& some,
+                                         const surface_model& model, const rigid_motion& start,
+                                         const alignment_options& options) const {
+        std::vector<surface_model::oriented> normals(some.size());
+        for (std::size_t k = 0; k < some.size(); ++k) normals[k].normal = surface_[some[k]].normal;
+        return align_to_surface(subset_view(cells_, some), normals, model.points(), model.normals(),
+                                start.inverse(), options)
+            .inverse();
+    }
+
     static constexpr std::size_t fewest = 20;     // cells, as in views
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
     static constexpr double lowest = 0.05;        // [m]; as in verifications

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The points of an object that whole beams hit. A beam at an edge returns the mean range
+/// of two faces, or of one and of things behind it: such points shift the pose of an object by
+/// millimeters, mostly away from the sensor.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/recognition/detail/points_in_bounds.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+
+namespace gnomon::recognition::detail {
+
+/// Whether a point of an object is less than half a beam from an edge, where two of its faces meet,
+/// or next to no face at all.
+/// @param x       in the frame of the object [m]
+/// @param normal  likewise; compatible with all faces if it is missing
+/// @param half    of the width of the beam [m]
+/// @param near    working memory
+[[nodiscard]] inline bool is_at_edge(const surface_model& model, const Eigen::Vector3d& x,
+                                     const Eigen::Vector3d& normal, double half,
+                                     std::vector<neighbor>& near) {
+    using gnomon::detail::combined, gnomon::detail::difference, gnomon::detail::dot;
+    constexpr double turned = 0.7;     // chosen: cosine of 45 degrees
+    constexpr std::size_t most = 200;  // performance only
+    model.points().nearest_within_into(near, x, most, half + 2.0 * model.spacing());
+    const auto normal_of = [&](const neighbor& q) { return model.normals()[q.index].normal; };
+    const auto own = std::ranges::find_if(near, [&](const neighbor& q) {
+        return is_missing(normal) || std::abs(dot(normal_of(q), normal)) >= turned;
+    });
+    if (own == near.end()) return true;
+    const Eigen::Vector3d face = normal_of(*own);
+    const double off = dot(face, difference(x, model.points()[own->index]));
+    const Eigen::Vector3d on_face = combined(1.0, x, -off, face);
+    return std::ranges::any_of(near, [&](const neighbor& q) {
+        const Eigen::Vector3d other = normal_of(q);
+        return std::abs(dot(other, face)) < turned &&
+               std::abs(dot(other, difference(on_face, model.points()[q.index]))) < half;
+    });
+}
+
+/// Points of an object, and the beams that hit them.
+struct whole_beams {
+    std::vector<point_index> points;  ///< those at no edge
+    double widest = 0.0;              ///< of all beams at the object, those at edges among them [m]
+    Eigen::Vector3d way{0.0, 0.0, 0.0};  ///< the sum of these beams, from the sensor [m]
+};
+
+/// @param cloud       of index and normals, seen from the origin without view points
+/// @param normals     of its points, a `normal_range`
+/// @param pose        of the object
+/// @param divergence  full angle of the beams
+/// @param margin      around the object [m]
+[[nodiscard]] whole_beams whole_beams_at(const voxel_grid::means& cloud, const spatial_index& index,
+                                         const auto& normals, const surface_model& model,
+                                         const rigid_motion& pose, angle divergence,
+                                         double margin) {
+    whole_beams found;
+    std::vector<neighbor> near;
+    const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
+    for_each_point_in(
+        index, pose, model.low() - around, model.high() + around,
+        [&](point_index i, const Eigen::Vector3d& x) {
+            const Eigen::Vector3d from =
+                cloud.viewpoints.empty() ? Eigen::Vector3d(0.0, 0.0, 0.0) : cloud.viewpoints[i];
+            const Eigen::Vector3d way = gnomon::detail::difference(cloud.points[i], from);
+            const double width = divergence.radians() * gnomon::detail::length(way);
+            found.way = gnomon::detail::combined(1.0, found.way, 1.0, way);
+            found.widest = std::max(found.widest, width);
+            const Eigen::Vector3d normal = pose.direction_in(normals[i].normal);
+            if (!is_at_edge(model, x, normal, 0.5 * width, near)) found.points.push_back(i);
+        });
+    return found;
+}
+
+}  // namespace gnomon::recognition::detail
