@@ -36,8 +36,9 @@ namespace gnomon::recognition::detail {
                                      std::vector<neighbor>& near) {
     using gnomon::detail::combined, gnomon::detail::difference, gnomon::detail::dot;
     constexpr double turned = 0.7;     // chosen: cosine of 45 degrees
+    constexpr double spacings = 2.0;   // chosen: a sample of the other face is as near
     constexpr std::size_t most = 200;  // performance only
-    model.points().nearest_within_into(near, x, most, half + 2.0 * model.spacing());
+    model.points().nearest_within_into(near, x, most, half + spacings * model.spacing());
     const auto normal_of = [&](const neighbor& q) { return model.normals()[q.index].normal; };
     const auto own = std::ranges::find_if(near, [&](const neighbor& q) {
         return is_missing(normal) || std::abs(dot(normal_of(q), normal)) >= turned;
