@@ -11,7 +11,6 @@
 
 namespace {
 
-constexpr std::size_t enough_points = 200;
 constexpr int headings = 4;
 
 /// The share of those that are less probable.
@@ -29,7 +28,7 @@ void offered_hypotheses::offer(const seen_room& room, const rec::object_finder& 
     std::vector<rec::object_place> places;
     std::vector<bool> is_right;
     for (const true_piece& piece : room.pieces) {
-        if (piece.points.size() < enough_points) continue;
+        if (piece.points.size() < enough_for_pose) continue;
         constexpr double shift = 0.05, turn = 10.0;  // at most [m, degrees]; as votes are off
         const gnomon::rigid_motion start =
             piece.pose * gnomon::rigid_motion::on_ground(

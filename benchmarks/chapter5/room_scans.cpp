@@ -204,7 +204,6 @@ void judgement::add(const judgement& more) {
 judgement judgement_of(const seen_room& room, std::vector<found_object> found,
                        const equal_headings& headings, double min_probability) {
     constexpr double most_of_it = 0.8;
-    constexpr std::size_t enough_for_pose = 200;
     std::ranges::stable_sort(found, std::greater{}, &found_object::probability);
     std::vector<bool> is_found(room.pieces.size(), false), is_whole(room.pieces.size(), false);
     std::vector<std::size_t> grouped(room.pieces.size(), 0);  // points of each piece

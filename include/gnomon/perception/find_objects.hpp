@@ -30,7 +30,6 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/core/angle.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -177,8 +176,7 @@ class object_finder {
                 h = detail::aligned_carefully(
                     at.scene, detail::aligned_roughly(at.scene, places[i], surfaces_), model);
                 recognize(at.scene, h);
-                if (options.divergence > degrees(0.0))
-                    h.aligned = at.scene.by_whole_beams(h.aligned, model, options.divergence);
+                h.aligned = at.scene.by_whole_beams(h.aligned, model, options.divergence);
             });
         });
         return result;

@@ -110,8 +110,7 @@ inline void settle(std::vector<found_object>& objects, const scene_evidence& sce
         found_object& o = objects[i];
         const surface_model& model = models[o.object];
         found_object settled = improved(scene, o, model, scene_evidence::careful);
-        if (divergence > radians(0.0))
-            settled.aligned = scene.by_whole_beams(settled.aligned, model, divergence);
+        settled.aligned = scene.by_whole_beams(settled.aligned, model, divergence);
         settled.log_recognized = o.log_recognized;
         settled.probability = o.probability;
         o = std::move(settled);

@@ -119,14 +119,16 @@ class scene_evidence {
     /// The alignment of an object that was found, by the cells that whole beams hit. Where these do
     /// not determine the pose, or would move it by more than edges shift it, it stays, less certain
     /// by that.
-    /// @param divergence  full angle of the beams
+    /// @param divergence  full angle of the beams; the alignment that was found for 0
     [[nodiscard]] alignment by_whole_beams(const alignment& found, const surface_model& model,
                                            angle divergence) const {
         using gnomon::detail::difference, gnomon::detail::direction_of, gnomon::detail::dot;
-        constexpr int rounds = 2;      // chosen: the cells change with the pose
-        constexpr double along = 0.5;  // formula: half of a beam, which edges shift at most
-        // Of a beam; more is another slat or leg. Chosen on rooms of seeds 1 to 20.
-        constexpr double across = 0.2;
+        if (divergence == degrees(0.0)) return found;
+        // Shifts in widths of a beam: along the rays edges cause at most half of one; across them
+        // more than a little is another slat or leg.
+        constexpr double along = 0.5;   // formula: half of a beam
+        constexpr double across = 0.2;  // chosen on rooms of seeds 1 to 20, of .2 to .5
+        constexpr int rounds = 2;       // chosen: the cells change with the pose
         const alignment_options how{
             .noise = noise_, .on_ground = true, .max_distance = alignment_options{}.last_distance};
         alignment settled = found;
@@ -137,9 +139,9 @@ class scene_evidence {
             const auto next = alignment_of(some_of(whole.points, careful.cells), model, pose, how);
             const Eigen::Vector3d moved =
                 difference(next.pose.point_out(found.pose.point_in(found.center)), found.center);
-            const double by = dot(direction_of(whole.way), moved);
-            const double aside = std::sqrt(std::max(0.0, dot(moved, moved) - by * by));
-            if (!next.is_usable() || !(std::abs(by) < along * whole.widest) ||
+            const double ahead = dot(direction_of(whole.way), moved);
+            const double aside = std::sqrt(std::max(0.0, dot(moved, moved) - ahead * ahead));
+            if (!next.is_usable() || !(std::abs(ahead) < along * whole.widest) ||
                 !(aside < across * whole.widest)) {
                 settled = found;
                 const double shift = across * whole.widest;
