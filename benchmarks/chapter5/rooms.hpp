@@ -58,7 +58,7 @@ struct background_group {
     double distance = 0.0;   ///< of its points from those of furniture, the least [m]
 };
 
-/// Points of a piece from which on its pose is judged.
+/// Fewest points of a piece whose pose is compared with the true one.
 inline constexpr std::size_t enough_for_pose = 200;
 
 /// A scan of a room, and what is true of it.
