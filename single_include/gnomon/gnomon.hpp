@@ -3123,7 +3123,8 @@ struct leaf_box {
     [[nodiscard]] double squared_distance_to(const leaf_box& other) const {
         double sum = 0.0;
         for (std::size_t a = 0; a < 3; ++a) {
-            const double gap = std::max({other.low[a] - high[a], low[a] - other.high[a], 0.0});
+            const double beyond = std::max(other.low[a] - high[a], low[a] - other.high[a]);
+            const double gap = 0.5 * (beyond + std::abs(beyond));  // 0 or more, without a branch
             sum += gap * gap;
         }
         return sum;
@@ -3277,22 +3278,25 @@ class leaf_tree {
     /// Calls visit(leaf, box) for all leaves within `distance` of a box, in their order.
     template <class Visit>
     void for_each_leaf_near(const leaf_box& box, double distance, Visit&& visit) const {
-        std::array<subtree, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
+        std::array<subtree, 64> waiting;  // as deep as the tree, which has fewer than 2^32 leaves
         std::size_t depth = 0;
         const double limit = distance * distance * (1.0 + 1e-12);
         const auto is_near = [&](const subtree& t) {
             return boxes_[t.node].squared_distance_to(box) <= limit;
         };
-        if (is_near(root())) stack[depth++] = root();
+        // Boxes are measured without a branch, which would often be predicted wrongly.
+        if (is_near(root())) waiting[depth++] = root();
         while (depth > 0) {
-            const subtree t = stack[--depth];
-            if (t.is_leaf()) {
-                visit(t.first, boxes_[t.node]);
-                continue;
+            subtree t = waiting[--depth];
+            bool near = true;
+            while (near && !t.is_leaf()) {
+                const auto [left, right] = t.children();
+                waiting[depth] = right;
+                depth += static_cast<std::size_t>(is_near(right));
+                near = is_near(left);
+                t = left;
             }
-            const auto [left, right] = t.children();
-            if (is_near(right)) stack[depth++] = right;
-            if (is_near(left)) stack[depth++] = left;
+            if (near) visit(t.first, boxes_[t.node]);
         }
     }
 
@@ -18166,11 +18170,13 @@ inline constexpr std::string_view blanks = " \t\v\f\r\n";
 template <class Vector>
 [[nodiscard]] properties three_properties(const std::array<const char*, 3>& names, field_type type,
                                           std::size_t size, const Vector& vector) {
-    const auto column = [&](auto k) -> properties {
-        return property{names[k], type, size,
-                        [vector, k](std::size_t i) { return static_cast<double>(vector(i)[k]); }};
+    // A constant suits the index of every vector type, signed or not.
+    const auto column = [&]<std::size_t K>(std::index_sequence<K>) -> properties {
+        return property{names[K], type, size,
+                        [vector](std::size_t i) { return static_cast<double>(vector(i)[K]); }};
     };
-    return {column(0U), column(1U), column(2U)};
+    return {column(std::index_sequence<0>{}), column(std::index_sequence<1>{}),
+            column(std::index_sequence<2>{})};
 }
 
 }  // namespace detail
@@ -24456,6 +24462,34 @@ inline void prefetch_element([[maybe_unused]] const auto& range, [[maybe_unused]
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/core/detail/unwritten.hpp -------------------------------------------------------
+
+/// @file
+/// Vectors whose resize() leaves new numbers unwritten. To write a large result twice, zeros first,
+/// takes longer than to compute a part of it, and happens on one thread.
+
+namespace gnomon::detail {
+
+/// The allocator of such a vector.
+template <class T>
+struct unwritten {
+    static_assert(std::is_trivially_default_constructible_v<T>);
+    using value_type = T;
+
+    unwritten() = default;
+    template <class U>
+    explicit(false) unwritten(const unwritten<U>&) {}
+
+    [[nodiscard]] T* allocate(std::size_t n) { return std::allocator<T>().allocate(n); }
+    void deallocate(T* first, std::size_t n) noexcept { std::allocator<T>().deallocate(first, n); }
+    /// Without a value; with one, `std::allocator_traits` constructs as usual.
+    void construct(T* at) { ::new (static_cast<void*>(at)) T; }
+
+    friend bool operator==(const unwritten&, const unwritten&) { return true; }
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/features/descriptor.hpp ---------------------------------------------------------
 
 /// @file
@@ -24520,8 +24554,9 @@ concept descriptor = requires(const D& d, std::span<const float> row) {
 /// The descriptors of n points, in one array of floats, which halves their memory. Compare only
 /// rows that are usable: others are zero, and so at distance 0 from each other.
 struct point_descriptors {
-    std::size_t dimension = 0;         ///< of each descriptor
-    std::vector<float> values;         ///< n rows of this length, one after the other
+    std::size_t dimension = 0;  ///< of each descriptor
+    /// n rows of this length, one after the other; resize() leaves new values unwritten.
+    std::vector<float, detail::unwritten<float>> values;
     std::vector<gnomon::trust> trust;  ///< of each row; a row that is not usable is zero
 
     /// The number of descriptors.
@@ -24637,10 +24672,8 @@ class row_writer {
         constexpr std::size_t line = 64 / sizeof(float);  // of the cache, performance only
         for (std::size_t k = 0; k < row_.size(); k += line) prefetch_to_write(values + k);
         trust found = described(place, places);
-        if (!usable(found))
-            std::fill(row_.begin(), row_.end(), 0.0);
-        else if (!move_row(values))
-            found = trust::not_finite;
+        if (!usable(found)) std::fill(row_.begin(), row_.end(), 0.0);
+        if (!move_row(values)) found = trust::not_finite;
         if (found != trust::good) result_.trust[r] = found;
     }
 
@@ -24661,7 +24694,7 @@ class row_writer {
             return describe_(p, normal, neighbors, row_);
     }
 
-    /// Stores the row in the result, which is zero unless all entries are finite, and makes it
+    /// Stores the row in the result, where it is zero unless all entries are finite, and makes it
     /// zero.
     /// @return whether all are
     [[nodiscard]] bool move_row(float* values) {
@@ -24728,7 +24761,10 @@ template <descriptor D, normal_range Surface, execution X>
         const std::size_t i = point_of(r);
         require(i < index.size(), "describe_points: an index is out of range");
         result.trust[r] = trust_before(index, surface, i);
-        if (!usable(result.trust[r])) continue;
+        if (!usable(result.trust[r])) {
+            std::fill_n(result.values.data() + r * result.dimension, result.dimension, 0.0f);
+            continue;
+        }
         point_index& row = row_of[tree.place_of(i)];
         if (row == no_row)
             row = static_cast<point_index>(r);

@@ -72,10 +72,8 @@ class row_writer {
         constexpr std::size_t line = 64 / sizeof(float);  // of the cache, performance only
         for (std::size_t k = 0; k < row_.size(); k += line) prefetch_to_write(values + k);
         trust found = described(place, places);
-        if (!usable(found))
-            std::fill(row_.begin(), row_.end(), 0.0);
-        else if (!move_row(values))
-            found = trust::not_finite;
+        if (!usable(found)) std::fill(row_.begin(), row_.end(), 0.0);
+        if (!move_row(values)) found = trust::not_finite;
         if (found != trust::good) result_.trust[r] = found;
     }
 
@@ -96,7 +94,7 @@ class row_writer {
             return describe_(p, normal, neighbors, row_);
     }
 
-    /// Stores the row in the result, which is zero unless all entries are finite, and makes it
+    /// Stores the row in the result, where it is zero unless all entries are finite, and makes it
     /// zero.
     /// @return whether all are
     [[nodiscard]] bool move_row(float* values) {
@@ -163,7 +161,10 @@ template <descriptor D, normal_range Surface, execution X>
         const std::size_t i = point_of(r);
         require(i < index.size(), "describe_points: an index is out of range");
         result.trust[r] = trust_before(index, surface, i);
-        if (!usable(result.trust[r])) continue;
+        if (!usable(result.trust[r])) {
+            std::fill_n(result.values.data() + r * result.dimension, result.dimension, 0.0f);
+            continue;
+        }
         point_index& row = row_of[tree.place_of(i)];
         if (row == no_row)
             row = static_cast<point_index>(r);

@@ -21,6 +21,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/unwritten.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
 
@@ -72,8 +73,9 @@ concept descriptor = requires(const D& d, std::span<const float> row) {
 /// The descriptors of n points, in one array of floats, which halves their memory. Compare only
 /// rows that are usable: others are zero, and so at distance 0 from each other.
 struct point_descriptors {
-    std::size_t dimension = 0;         ///< of each descriptor
-    std::vector<float> values;         ///< n rows of this length, one after the other
+    std::size_t dimension = 0;  ///< of each descriptor
+    /// n rows of this length, one after the other; resize() leaves new values unwritten.
+    std::vector<float, detail::unwritten<float>> values;
     std::vector<gnomon::trust> trust;  ///< of each row; a row that is not usable is zero
 
     /// The number of descriptors.

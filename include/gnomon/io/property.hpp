@@ -120,11 +120,13 @@ inline constexpr std::string_view blanks = " \t\v\f\r\n";
 template <class Vector>
 [[nodiscard]] properties three_properties(const std::array<const char*, 3>& names, field_type type,
                                           std::size_t size, const Vector& vector) {
-    const auto column = [&](auto k) -> properties {
-        return property{names[k], type, size,
-                        [vector, k](std::size_t i) { return static_cast<double>(vector(i)[k]); }};
+    // A constant suits the index of every vector type, signed or not.
+    const auto column = [&]<std::size_t K>(std::index_sequence<K>) -> properties {
+        return property{names[K], type, size,
+                        [vector](std::size_t i) { return static_cast<double>(vector(i)[K]); }};
     };
-    return {column(0U), column(1U), column(2U)};
+    return {column(std::index_sequence<0>{}), column(std::index_sequence<1>{}),
+            column(std::index_sequence<2>{})};
 }
 
 }  // namespace detail

@@ -124,22 +124,25 @@ class leaf_tree {
     /// Calls visit(leaf, box) for all leaves within `distance` of a box, in their order.
     template <class Visit>
     void for_each_leaf_near(const leaf_box& box, double distance, Visit&& visit) const {
-        std::array<subtree, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
+        std::array<subtree, 64> waiting;  // as deep as the tree, which has fewer than 2^32 leaves
         std::size_t depth = 0;
         const double limit = distance * distance * (1.0 + 1e-12);
         const auto is_near = [&](const subtree& t) {
             return boxes_[t.node].squared_distance_to(box) <= limit;
         };
-        if (is_near(root())) stack[depth++] = root();
+        // Without a branch for each box, which would often be predicted wrongly.
+        if (is_near(root())) waiting[depth++] = root();
         while (depth > 0) {
-            const subtree t = stack[--depth];
-            if (t.is_leaf()) {
-                visit(t.first, boxes_[t.node]);
-                continue;
+            subtree t = waiting[--depth];
+            bool near = true;
+            while (near && !t.is_leaf()) {
+                const auto [left, right] = t.children();
+                waiting[depth] = right;
+                depth += static_cast<std::size_t>(is_near(right));
+                near = is_near(left);
+                t = left;
             }
-            const auto [left, right] = t.children();
-            if (is_near(right)) stack[depth++] = right;
-            if (is_near(left)) stack[depth++] = left;
+            if (near) visit(t.first, boxes_[t.node]);
         }
     }
 
