@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -159,7 +161,8 @@ TEST(io_read_pcd, refuses_a_damaged_header) {
     refuse("FIELDS x y z\nSIZE 4 4 20\nTYPE F F E\nPOINTS 2\n", "line 5", "do not go together");
     refuse("FIELDS x y z\nTYPE F F F\nSIZE 4 4 2\nPOINTS 2\n", "line 5", "do not go together");
     refuse("FIELDS x y z\nCOUNT 1 1 0\nPOINTS 2\n", "line 4", "COUNT of \"z\"");
-    refuse("FIELDS x y z\nCOUNT 1 1 18446744073709551615\nPOINTS 0\n", "line 4", "COUNT of \"z\"");
+    const std::string most = std::to_string(std::numeric_limits<std::size_t>::max());
+    refuse("FIELDS x y z\nCOUNT 1 1 " + most + "\nPOINTS 0\n", "line 4", "COUNT of \"z\"");
     refuse("FIELDS x y z\nWIDTH 2\nHEIGHT 2\nPOINTS 2\n", "line 5", "is not POINTS");
     refuse("FIELDS x y z\nWIDTH 9223372036854775808\nHEIGHT 2\n", "line 4", "impossible");
     refuse("FIELDS x y z\n", "line 2", "neither WIDTH nor POINTS");
