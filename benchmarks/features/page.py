@@ -52,8 +52,9 @@ SECTIONS = [
      "mean normal and mean surface variation are averages; one call gives the first eight features."),
     ("growth", "Time by the number of points",
      "The shapes of one segment of 100,000 and of 1,000,000 points with noise of 5 mm: a wall of 4 m x 2.5 m with a "
-     "door, half of a sphere of 0.5 m, of a cylinder of 0.1 m and of a cone. Times are those of the processor, the "
-     "least of seven runs of both sizes in turns, in memory that the process keeps."),
+     "door, half of a sphere of 0.5 m, of a cylinder of 0.1 m and of a cone. Times are those of the processor, "
+     "medians of seven turns, in memory that the process keeps; in a turn the small segment is measured ten times, "
+     "as long as the large one, so that a busy machine disturbs both alike."),
     ("zernike", "Zernike descriptors",
      "480 scans of one piece of furniture each, from 1.2 to 3 m away, with noise of 15 mm: the mean distance of "
      "the same part, such as seats of one model of chair, in different views, over that of different parts. "
