@@ -10,7 +10,11 @@
 # shellcheck disable=SC2016,SC2317  # functions are called by their names in variables
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-. "$root/tools/setup.sh"  # python_with, set_up
+. "$root/tools/setup.sh"  # print_head, python_with, set_up
+if [ "${1-}" = --help ]; then
+    print_head "$0"
+    exit 0
+fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

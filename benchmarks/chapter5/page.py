@@ -52,6 +52,10 @@ SECTIONS = [
      "differences; they have no probability, and decide on all views. The height profile is that of all points of the "
      "scan, without any parts, with the same trees as the default. The repaired method of the thesis has seen hidden versions, too, "
      "and does not count parts."),
+    ("fig_5_11", "Fig. 5.11: examples",
+     "Three models as in the thesis, by the recommended mode and one seed: how many of their views are recognized though a "
+     "board hides half of the points, and a picture of the first such view of each, with the points that the board hides, "
+     "taken from a scan without it."),
     ("skimmed", "Sec. 5.8.4: skimmed points",
      "Scans by a beam of 10 mrad, of 9 sub-rays, that averages the ranges of all surfaces that it meets, tested "
      "after learning scans by thin beams, and after learning both. Where the width of the beam is given, points "
@@ -90,7 +94,7 @@ SECTIONS = [
      "the recommended mode at P_d 0.90; it has learned other things as background. Voting and verification "
      "(`object_finder`) knows the surfaces of the models, and decides at a probability of 0.5. Precision is the share of right "
      "ones of the decided objects, a second one on the same piece being wrong; recall is the share of all pieces that "
-     "were found; accuracy is the share of right names of all views, background among them; whole is the share of "
+     "were found; accuracy is the share of views that are decided rightly, or rejected and background; whole is the share of "
      "pieces of which one group has 80 % of the points, and hardly others. Poses are those of right objects of 200 "
      "points and more, up to the symmetry of the model; NEES are those of poses that are right and that the points "
      "determine. The finder knows the noise and the width of the beams. Hypotheses are offered at each piece of 200 points "
@@ -131,7 +135,7 @@ def page(results, verdicts):
         "missed. ECE is the expected calibration error.", "",
         f"{processors_of(results.contexts)}, {context['compiler']}, flags `{context['flags']}`. The results of each program are in "
         "[chapter5/](chapter5/), the relations in [chapter5.json](chapter5.json).", "",
-        "![Precision by rho, by missed views, and recognition by hidden share](chapter5.png)", "",
+        "![Precision by rho and by missed views, recognition by hidden share, and Fig. 5.10 for rooms](chapter5.png)", "",
         *pages.heading(verdicts)]
     for program, title, about in SECTIONS:
         if program not in results.tables:
@@ -140,6 +144,8 @@ def page(results, verdicts):
         for name, rows in results.tables[program].items():
             lines += [f"{name[0].upper()}{name[1:]}:", "", *pages.table_of(rows)]
         lines += pages.relations(verdicts, program)
+        if program == "fig_5_11":
+            lines += ["![A chair, a table and an armchair, half of each hidden](chapter5/fig_5_11.png)", ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -186,8 +192,25 @@ def draw_by_hidden(axes, rows, column, title):
     axes.set_title(title)
 
 
+def draw_rooms(axes, rows, rooms):
+    """Fig. 5.10: each measure in one color, each method in one style."""
+    methods = {"voting and verification": "o-", "thesis grouping": "s--"}
+    for color, measure in enumerate(("accuracy", "precision", "recall")):
+        for method, style in methods.items():
+            own = [r for r in rows if r["rooms"] == rooms and r["method"] == method]
+            axes.plot([r["P_d"] for r in own], [r[measure] for r in own], style, color=f"C{color}",
+                      markersize=4, label=f"{measure}, {method}")
+    if rooms == "cluttered":
+        for color, value in enumerate((0.90, 0.86, 0.43)):
+            axes.plot(0.9, value, "*", color=f"C{color}", markersize=12, markeredgecolor="k")
+        axes.plot([], [], "k*", markersize=10, label="the thesis, on real scans")
+    axes.set_ylim(0, 1.02)
+    axes.set_xlabel("P_d")
+    axes.set_title(f"Fig. 5.10: {rooms} rooms")
+
+
 def draw(results, path):
-    """Four panels: by rho, by P_d, and by the hidden share, the best class and the decisions."""
+    """By rho, by P_d, by the hidden share (the best class and the decisions), and rooms by P_d."""
     try:
         import matplotlib
         matplotlib.use("agg")
@@ -195,7 +218,7 @@ def draw(results, path):
     except ImportError:
         print("matplotlib is missing: no picture drawn")
         return
-    figure, grid = plt.subplots(2, 2, figsize=(12, 9), layout="constrained")
+    figure, grid = plt.subplots(3, 2, figsize=(12, 13.5), layout="constrained")
 
     def rows(program, name):
         return results.tables.get(program, {}).get(name, [])
@@ -205,6 +228,10 @@ def draw(results, path):
     hidden = rows("occlusion", "by hidden share")
     draw_by_hidden(grid[1][0], hidden, "top 1", "Best class is right, of all views")
     draw_by_hidden(grid[1][1], hidden, "right", "Right and decided at P_d 0.90, of all views")
+    in_rooms = rows("rooms", "whole rooms by P_d")
+    if in_rooms:
+        draw_rooms(grid[2][0], in_rooms, "cluttered")
+        draw_rooms(grid[2][1], in_rooms, "touching")
     for axes in grid.flat:
         axes.set_visible(bool(axes.lines))  # not those of a program that was left out
         axes.grid(color="0.9")

@@ -219,18 +219,20 @@ judgement judgement_of(const seen_room& room, std::vector<found_object> found,
                                            : std::string_view(room.pieces[p].name);
         const bool is_named = f.name == truth;
         ++result.views;
-        result.right_views += is_named;
         if (p != seen_room::no_piece) {
             const auto n = static_cast<double>(most);
             if (n >= most_of_it * static_cast<double>(f.points.size()) &&
                 n >= most_of_it * static_cast<double>(grouped[p]))
                 is_whole[p] = true;
         }
-        if (f.name == gnomon::recognition::background_name || f.probability < min_probability)
+        if (f.name == gnomon::recognition::background_name || f.probability < min_probability) {
+            result.right_views += p == seen_room::no_piece;
             continue;
+        }
         ++result.decided;
         if (!is_named || is_found[p]) continue;
         ++result.right;
+        ++result.right_views;
         is_found[p] = true;
         if (f.aligned && room.pieces[p].points.size() >= enough_for_pose)
             result.poses.push_back(error_of(*f.aligned, room.pieces[p].pose, headings.at(f.name)));

@@ -19,19 +19,19 @@
 
 namespace {
 
-/// A method, and the probability from which on its objects are decided.
+/// A method, and the probabilities from which on it decides on objects, and finds any.
 struct method {
     std::string name;
     room_method find;
-    double min_probability = 0.90;
+    double min_probability = 0.90, least_probability = 0.0;
 };
 
 /// @param finder  refers to it
 std::vector<method> methods_of(const effort& much, std::uint64_t seed,
                                const rec::object_finder& finder) {
-    return {
-        {"thesis grouping", thesis_grouping(much, seed)},
-        {"voting and verification", voting(finder), rec::find_objects_options{}.min_probability}};
+    const double found = rec::find_objects_options{}.min_probability;
+    return {{"thesis grouping", thesis_grouping(much, seed)},
+            {"voting and verification", voting(finder), found, found}};
 }
 
 /// The rooms of a seed.
@@ -41,25 +41,59 @@ struct room_set {
     std::size_t rooms;
 };
 
+/// The values of P_d of Fig. 5.10.
+constexpr double thresholds[] = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
+
 /// The judgements of one method on one set of rooms, seed by seed.
 struct method_row {
     json key;
-    std::vector<judgement> seeds;
-    std::vector<double> times;  ///< of the processor, all threads, per room [s]
+    std::vector<judgement> seeds = {};  ///< at the P_d of the method
+    std::vector<std::vector<judgement>> by_threshold{std::size(thresholds)};  ///< the same at each
+    std::vector<double> times = {};  ///< of the processor, all threads, per room [s]
+
+    void begin_seed() {
+        seeds.emplace_back();
+        for (auto& of_threshold : by_threshold) of_threshold.emplace_back();
+    }
+    void judge(const seen_room& room, const method& by, const equal_headings& headings) {
+        const double start = processor_time(CLOCK_PROCESS_CPUTIME_ID);
+        const auto found = by.find(room.truth.scan);
+        times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) - start);
+        seeds.back().add(judgement_of(room, found, headings, by.min_probability));
+        for (std::size_t t = 0; t < std::size(thresholds); ++t)
+            if (thresholds[t] >= by.least_probability)
+                by_threshold[t].back().add(judgement_of(room, found, headings, thresholds[t]));
+    }
 };
+
+/// A share of each seed: the median, and the worst.
+void add_share(json& row, const char* name, const std::vector<judgement>& seeds,
+               double (judgement::*share)() const) {
+    std::vector<double> values;
+    for (const judgement& j : seeds) values.push_back((j.*share)());
+    row[name] = rounded(median_of(values), 3);
+    row[std::string(name) + ", worst"] = rounded(std::ranges::min(values), 3);
+}
+void add_shares(json& row, const std::vector<judgement>& seeds) {
+    add_share(row, "accuracy", seeds, &judgement::accuracy);
+    add_share(row, "precision", seeds, &judgement::precision);
+    add_share(row, "recall", seeds, &judgement::recall);
+}
+
+/// The rows of Fig. 5.10, for the thresholds at which the method was tested.
+void add_curve(json& table, const method_row& row) {
+    for (std::size_t t = 0; t < std::size(thresholds); ++t) {
+        if (row.by_threshold[t].front().views == 0) continue;
+        table.push_back(row.key);
+        table.back()["P_d"] = thresholds[t];
+        add_shares(table.back(), row.by_threshold[t]);
+    }
+}
 
 json row_of(const method_row& row) {
     json result = row.key;
-    const auto add = [&](const char* name, auto&& of) {
-        std::vector<double> values;
-        for (const judgement& j : row.seeds) values.push_back(of(j));
-        result[name] = rounded(median_of(values), 3);
-        result[std::string(name) + ", worst"] = rounded(std::ranges::min(values), 3);
-    };
-    add("accuracy", [](const judgement& j) { return j.accuracy(); });
-    add("precision", [](const judgement& j) { return j.precision(); });
-    add("recall", [](const judgement& j) { return j.recall(); });
-    add("whole", [](const judgement& j) { return j.wholeness(); });
+    add_shares(result, row.seeds);
+    add_share(result, "whole", row.seeds, &judgement::wholeness);
     judgement all;
     for (const judgement& j : row.seeds) all.add(j);
     result["objects"] = all.objects;
@@ -185,8 +219,8 @@ json measure(const effort& much, const seed_plan& plan) {
             const std::size_t first = k * methods.size();
             if (s == 0)
                 for (const method& m : methods)
-                    rows.push_back({{{"rooms", set.name}, {"method", m.name}}, {}, {}});
-            for (std::size_t m = 0; m < methods.size(); ++m) rows[first + m].seeds.emplace_back();
+                    rows.push_back({.key = {{"rooms", set.name}, {"method", m.name}}});
+            for (std::size_t m = 0; m < methods.size(); ++m) rows[first + m].begin_seed();
             for (std::size_t r = 0; r < set.rooms; ++r) {
                 const double start = processor_time(CLOCK_PROCESS_CPUTIME_ID);
                 const seen_room room =
@@ -194,19 +228,17 @@ json measure(const effort& much, const seed_plan& plan) {
                 contents[k].times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) - start);
                 contents[k].add(room);
                 if (!set.touching) offers[s].offer(room, finder, plan.first_room + 1000 * s + r);
-                for (std::size_t m = 0; m < methods.size(); ++m) {
-                    const double before = processor_time(CLOCK_PROCESS_CPUTIME_ID);
-                    auto found = methods[m].find(room.truth.scan);
-                    rows[first + m].times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) -
-                                                    before);
-                    rows[first + m].seeds.back().add(
-                        judgement_of(room, std::move(found), headings, methods[m].min_probability));
-                }
+                for (std::size_t m = 0; m < methods.size(); ++m)
+                    rows[first + m].judge(room, methods[m], headings);
             }
         }
     }
-    json table = json::array(), counts = json::array(), turns = json::array();
-    for (const method_row& row : rows) table.push_back(row_of(row));
+    json table = json::array(), curves = json::array();
+    json counts = json::array(), turns = json::array();
+    for (const method_row& row : rows) {
+        table.push_back(row_of(row));
+        add_curve(curves, row);
+    }
     for (std::size_t k = 0; k < contents.size(); ++k) {
         counts.push_back(contents[k].row(plan.sets[k].name));
         std::printf("%s\n", counts.back().dump().c_str());
@@ -214,6 +246,7 @@ json measure(const effort& much, const seed_plan& plan) {
     for (const auto& [name, n] : headings)
         turns.push_back({{"model", name}, {"equal headings", n == 0 ? json("all") : json(n)}});
     return {{"whole rooms", table},
+            {"whole rooms by P_d", curves},
             {"hypotheses offered at each piece", offers_table(offers)},
             {"time of a room", times},
             {"contents of the rooms", counts},

@@ -123,7 +123,7 @@ struct judgement {
     std::size_t decided = 0;  ///< found objects that are no background, of probability P_d and more
     std::size_t right = 0;    ///< of these: of the name of the object that most points are of
     std::size_t views = 0;    ///< all found objects and background
-    std::size_t right_views = 0;         ///< of these: the most probable class is the true one
+    std::size_t right_views = 0;         ///< of these: right, or background that is not decided
     std::vector<pose_error> poses = {};  ///< of right objects of 200 points and more, if found
 
     void add(const judgement& more);

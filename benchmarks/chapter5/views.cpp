@@ -14,8 +14,6 @@
 
 namespace {
 
-constexpr double sensor_height = 1.2;  // [m]
-
 sim::object_view_options options_of(const view_kind& kind, std::uint64_t seed, purpose use) {
     // Sets to test that differ in noise, duration or occlusion only have the same poses.
     sim::object_view_options options{.sensor = sim::at(0.0, 0.0, sensor_height),

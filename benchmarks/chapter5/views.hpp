@@ -29,6 +29,9 @@ inline constexpr std::uint64_t first_seed = 5001;
 /// What a set of views is for: the numbers enter their seeds, so that no two sets are alike.
 enum class purpose : std::uint64_t { learning, test };
 
+/// Above the origin, where sensors of views stand [m].
+inline constexpr double sensor_height = 1.2;
+
 /// The full angle of a beam that skims: 10 mrad.
 inline constexpr gnomon::angle wide_beam = gnomon::radians(0.010);
 

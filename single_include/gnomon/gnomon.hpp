@@ -3123,8 +3123,7 @@ struct leaf_box {
     [[nodiscard]] double squared_distance_to(const leaf_box& other) const {
         double sum = 0.0;
         for (std::size_t a = 0; a < 3; ++a) {
-            const double beyond = std::max(other.low[a] - high[a], low[a] - other.high[a]);
-            const double gap = 0.5 * (beyond + std::abs(beyond));  // 0 or more, without a branch
+            const double gap = std::max({other.low[a] - high[a], low[a] - other.high[a], 0.0});
             sum += gap * gap;
         }
         return sum;
@@ -3284,7 +3283,7 @@ class leaf_tree {
         const auto is_near = [&](const subtree& t) {
             return boxes_[t.node].squared_distance_to(box) <= limit;
         };
-        // Boxes are measured without a branch, which would often be predicted wrongly.
+        // Without a branch for each box, which would often be predicted wrongly.
         if (is_near(root())) waiting[depth++] = root();
         while (depth > 0) {
             subtree t = waiting[--depth];
@@ -10358,7 +10357,7 @@ class noise_meter {
   private:
     static constexpr std::string_view too_little_flat = "too little of the scan is flat";
     static constexpr std::string_view no_view_point =
-        "the view point is not one: it is too far away from the points";
+        "the view point is too far away from the points, or none was given (the origin)";
 
     /// The noise where too few planes are seen: at least that of quantization is known.
     [[nodiscard]] measured_noise without_fit() {
@@ -19687,6 +19686,20 @@ void append_text(std::string& text, T value) {
     text.append(digits, end) += ' ';
 }
 
+/// @throws std::invalid_argument  which names the value and what the property holds
+template <class T>
+[[noreturn]] void refuse(double value) {
+    std::string message = "properties: ";
+    append_text(message, value);  // and a blank
+    message += "does not fit its property, which holds ";
+    message += std::is_integral_v<T> ? "whole numbers from " : "numbers from ";
+    append_text(message, std::numeric_limits<T>::lowest());
+    message += "to ";
+    append_text(message, std::numeric_limits<T>::max());
+    message.pop_back();
+    GNOMON_THROW(std::invalid_argument(message));
+}
+
 /// Converts `value` to T. A conversion to float is rounded.
 /// @throws std::invalid_argument  if `value` is outside the range of T, or not integral as T is
 template <class T>
@@ -19699,7 +19712,7 @@ template <class T>
     } else {
         fits = !(std::isfinite(value) && std::abs(value) > static_cast<double>(limits::max()));
     }
-    gnomon::detail::require(fits, "properties: a value does not fit the type of its property");
+    if (!fits) refuse<T>(value);
     return static_cast<T>(value);
 }
 

@@ -288,6 +288,19 @@ TEST(io_write_las, copies_the_frame_of_a_source) {
                  gnomon::error);
 }
 
+TEST(io_write_las, names_the_value_that_does_not_fit) {
+    const std::vector<float> shares{0.375f, 1.0f, 0.0f};
+    try {
+        io::write_las(io_test::scratch_path("a.las"), las_cloud(3, {0, 0, 0}, 1),
+                      io::scalar_property("intensity", shares));
+        FAIL();
+    } catch (const std::invalid_argument& e) {
+        EXPECT_STREQ(e.what(),
+                     "properties: 0.375 does not fit its property, which holds whole "
+                     "numbers from 0 to 65535");
+    }
+}
+
 TEST(io_write_las, refuses_impossible_arguments_and_leaves_nothing) {
     const std::string path = io_test::scratch_path("a.las");
     std::remove(path.c_str());

@@ -92,7 +92,7 @@ class noise_meter {
   private:
     static constexpr std::string_view too_little_flat = "too little of the scan is flat";
     static constexpr std::string_view no_view_point =
-        "the view point is not one: it is too far away from the points";
+        "the view point is too far away from the points, or none was given (the origin)";
 
     /// The noise where too few planes are seen: at least that of quantization is known.
     [[nodiscard]] measured_noise without_fit() {

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -38,6 +39,20 @@ void append_text(std::string& text, T value) {
     text.append(digits, end) += ' ';
 }
 
+/// @throws std::invalid_argument  which names the value and what the property holds
+template <class T>
+[[noreturn]] void refuse(double value) {
+    std::string message = "properties: ";
+    append_text(message, value);  // and a blank
+    message += "does not fit its property, which holds ";
+    message += std::is_integral_v<T> ? "whole numbers from " : "numbers from ";
+    append_text(message, std::numeric_limits<T>::lowest());
+    message += "to ";
+    append_text(message, std::numeric_limits<T>::max());
+    message.pop_back();
+    GNOMON_THROW(std::invalid_argument(message));
+}
+
 /// Converts `value` to T. A conversion to float is rounded.
 /// @throws std::invalid_argument  if `value` is outside the range of T, or not integral as T is
 template <class T>
@@ -50,7 +65,7 @@ template <class T>
     } else {
         fits = !(std::isfinite(value) && std::abs(value) > static_cast<double>(limits::max()));
     }
-    gnomon::detail::require(fits, "properties: a value does not fit the type of its property");
+    if (!fits) refuse<T>(value);
     return static_cast<T>(value);
 }
 
