@@ -29405,8 +29405,23 @@ namespace gnomon::detail {
     return some.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(some.size()));
 }
 
+/// The standard deviation of the rounding of coordinates to the numbers that they came in, at most
+/// [m]: floats of maps are half a metre apart.
+[[nodiscard]] inline double rounding_of(const spatial_index& points) {
+    double largest = 0.0;
+    if (points.tree().size() > 0) {
+        const leaf_box& box = points.tree().box();
+        for (std::size_t a = 0; a < 3; ++a)
+            largest = std::max({largest, std::abs(box.low[a]), std::abs(box.high[a])});
+    }
+    constexpr double uniform = 12.0;  // formula: the variance of one is its squared width over this
+    return points.epsilon() * largest / std::sqrt(uniform);
+}
+
 /// The noise along the rays, as given or measured; where it cannot be measured, that across the
-/// surfaces, and why. Planes that scatter by more than the given noise have the measured one.
+/// surfaces, and why. Noise across the surfaces is at least the rounding of coordinates, which is
+/// the reason where it is more than the flatness of planes. Planes that scatter by more than the
+/// given noise have the measured one.
 /// @param result  its `noise` is replaced, in its memory
 /// @param chain   whose noise is given, or not
 template <class Chain, class X>
@@ -29424,9 +29439,13 @@ void determine_noise(auto& result, const spatial_index& points, const Chain& cha
         if (!given || mean_noise(points, of_planes) > mean_noise(points, *given))
             noise.of_planes = of_planes;
     } else if (!given) {
-        noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+        const double rounding = rounding_of(points);
+        noise.curve = noise.of_planes =
+            constant_noise{std::max(rounding, noise_level(points, run))};
         noise.is_across_surface = true;
-        noise.reason = found.reason;
+        noise.reason = rounding > flatness
+                           ? "coordinates are rounded: subtract an offset before they become floats"
+                           : found.reason;
     }
 }
 

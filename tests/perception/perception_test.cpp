@@ -206,6 +206,23 @@ TEST(perception, normals_face_the_view_point_without_noise_along_the_rays) {
     }
 }
 
+/// Floats are half a metre apart at map coordinates: what they rounded away is noise, and named.
+TEST(perception, names_the_rounding_of_coordinates) {
+    std::vector<Eigen::Vector3f> floats;
+    clouds::cloud doubles;
+    for (int i = 0; i < 10'000; ++i) {
+        const Eigen::Vector3d p(650'000.0 + 0.02 * (i % 100), 5'300'000.0 + 0.02 * (i / 100), 2.0);
+        doubles.push_back(p);
+        floats.push_back(p.cast<float>());
+    }
+    const auto rounded = perception<>{}(floats).noise;
+    EXPECT_NEAR(rounded.curve(1.0), 0.5 / std::sqrt(12.0), 0.05);
+    EXPECT_NE(rounded.reason.find("rounded"), std::string_view::npos);
+    const auto exact = perception<>{}(doubles).noise;
+    EXPECT_LT(exact.curve(1.0), 1e-8);
+    EXPECT_EQ(exact.reason.find("rounded"), std::string_view::npos);
+}
+
 /// The lines of a spinning lidar are far apart, and the road is not seen below it.
 TEST(perception, finds_one_road_by_a_spinning_lidar) {
     namespace sim = gnomon::simulation;
