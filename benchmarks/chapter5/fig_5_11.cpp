@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,25 +37,18 @@ struct example {
     double probability = 0.0;
 };
 
-/// The colors of kinds of parts, in the order in which they come.
-class part_colors {
-  public:
-    [[nodiscard]] std::int32_t label_of(const std::string& kind) {
-        const auto [at, is_new] = labels_.try_emplace(kind, names_.size());
-        if (is_new) names_.push_back(kind);
-        return static_cast<std::int32_t>(at->second);
-    }
-    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-
-  private:
-    std::map<std::string, std::size_t> labels_;
-    std::vector<std::string> names_;
-};
+/// The number of a kind of parts, which is its color, in the order in which they come.
+std::int32_t label_of(const std::string& kind, std::vector<std::string>& kinds) {
+    const auto at = std::ranges::find(kinds, kind);
+    const auto label = static_cast<std::int32_t>(at - kinds.begin());
+    if (at == kinds.end()) kinds.push_back(kind);
+    return label;
+}
 
 /// The points that were seen, by the part that they are of, among those of the same view without
 /// the board. All face the sensor.
 std::vector<picture::splat> splats_of(const scan_set& tests, const scan_set& whole, std::size_t i,
-                                      part_colors& colors) {
+                                      std::vector<std::string>& kinds) {
     constexpr double near = 0.03, radius = 0.01;  // [m]
     const auto& seen = tests.scans[i].points;
     std::vector<picture::splat> splats;
@@ -69,7 +61,7 @@ std::vector<picture::splat> splats_of(const scan_set& tests, const scan_set& who
     }
     for (std::size_t k = 0; k < seen.size(); ++k) {
         const std::string& kind = tests.parts[i][k];
-        const std::int32_t label = colors.label_of(kind.starts_with("arm") ? "arm" : kind);
+        const std::int32_t label = label_of(kind.starts_with("arm") ? "arm" : kind, kinds);
         add(seen[k], label, picture::color_of(label));
     }
     return splats;
@@ -80,10 +72,10 @@ void draw(const scan_set& tests, const scan_set& whole, const std::vector<exampl
     constexpr int side = 500, margin = 24, top = 80, bottom = 60;
     picture::image sheet(margin + static_cast<int>(examples.size()) * (side + margin),
                          top + side + bottom);
-    part_colors colors;
+    std::vector<std::string> kinds;  // of parts
     int x = margin;
     for (const example& e : examples) {
-        const auto splats = splats_of(tests, whole, e.scan, colors);
+        const auto splats = splats_of(tests, whole, e.scan, kinds);
         const picture::scene scene(splats, sensor_of_views, Eigen::Vector3d(0.0, 0.0, 1.0));
         const picture::view from_sensor = scene.views()[0];
         sheet.paste(picture::drawn(splats, {}, from_sensor.from, side, side, from_sensor.back), x,
@@ -104,8 +96,8 @@ void draw(const scan_set& tests, const scan_set& whole, const std::vector<exampl
         x += 28 + picture::image::width_of(text) + 24;
     };
     explain(hidden_color, "hidden by a board");
-    for (std::size_t k = 0; k < colors.names().size(); ++k)
-        explain(picture::color_of(static_cast<std::int32_t>(k)), colors.names()[k]);
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+        explain(picture::color_of(static_cast<std::int32_t>(k)), kinds[k]);
     gnomon::io::replace_file(file, sheet.png());
 }
 
