@@ -38,6 +38,7 @@ struct setting {
     double speed = 0.0;      // [m/s]
     double given = 0.0;      // noise [m]; measured, if 0
     double misplaced = 0.0;  // the view point, along the road [m]
+    bool plain = false;      // the street
 };
 
 std::vector<setting> settings() {
@@ -45,6 +46,9 @@ std::vector<setting> settings() {
                many = sim::scanners::velodyne_hdl_64e();
     std::vector<setting> all{{"16 beams", few}, {"32 beams", some}, {"64 beams", many}};
     all.push_back({"32 beams at 15 m/s", some, 15.0});
+    for (const auto& [name, lidar] :
+         {std::pair("16", few), std::pair("32", some), std::pair("64", many)})
+        all.push_back({std::string(name) + " beams, plain streets", lidar, 0.0, 0.0, 0.0, true});
     for (const auto& [name, lidar] : {std::pair("32 beams", some), std::pair("64 beams", many)}) {
         all.push_back({std::string(name) + ", half of the noise", lidar, 0.0, 0.5 * sigma});
         all.push_back({std::string(name) + ", twice the noise", lidar, 0.0, 2.0 * sigma});
@@ -149,7 +153,7 @@ street_rows rows_of(const setting& s, std::uint64_t first, std::uint64_t count) 
     std::vector<double> errors;  // [degrees]
     std::map<std::string, double> lost;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const sim::scene street = sim::scenes::street({.seed = seed});
+        const sim::scene street = sim::scenes::street({.plain = s.plain, .seed = seed});
         const sim::true_scan truth = sweep(street, s, seed);
         gnomon::perception<> chain;
         if (s.given > 0.0) chain.noise = gnomon::constant_noise{s.given};

@@ -80,6 +80,53 @@ TEST(across_lines, finds_points_of_the_next_lines) {
     EXPECT_EQ(across(points), along(points)) << "of unknown view points";
 }
 
+/// By brute force: of the rays up to two spacings away, the four nearest in each quadrant.
+TEST(across_lines, finds_the_nearest_of_each_quadrant) {
+    const auto points = ground();
+    const spatial_index index(gnomon::with_viewpoint(points, sensor));
+    gnomon::detail::across_lines<spatial_index> search(index);
+    const double reach = gnomon::degrees(2.0 * 2.0).radians();
+    constexpr std::size_t reach_of_line = 3;
+    std::size_t found_some = 0;
+    for (std::size_t i = reach_of_line; i + reach_of_line < points.size(); i += 7) {
+        std::vector<point_index> on_line;
+        const Eigen::Vector3d u = points[i].normalized();
+        const gnomon::detail::ray_plane<> plane(u);
+        gnomon::detail::scan_line<> line;
+        for (std::size_t j = i - reach_of_line; j <= i + reach_of_line; ++j) {
+            if (j == i) continue;
+            on_line.push_back(static_cast<point_index>(j));
+            line.add(plane.offset(points[j]));
+        }
+        line.fit();
+        std::vector<std::vector<gnomon::neighbor>> quadrants(4);
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            const Eigen::Vector3d v = points[j].normalized();
+            const double squared = gnomon::squared_distance(u, v);
+            if (j == i || squared > reach * reach) continue;
+            quadrants[line.quadrant(plane.offset(v))].push_back(
+                {squared, static_cast<point_index>(j)});
+        }
+        std::vector<double> expected, distances;
+        for (auto& q : quadrants) {
+            std::sort(q.begin(), q.end());
+            for (std::size_t n = 0; n < std::min<std::size_t>(4, q.size()); ++n)
+                expected.push_back(q[n].squared_distance);
+        }
+        const auto found = search(static_cast<point_index>(i), on_line.size(),
+                                  [&](std::size_t n) { return on_line[n]; });
+        for (const point_index j : found)
+            distances.push_back(gnomon::squared_distance(u, points[j].normalized()));
+        std::sort(expected.begin(), expected.end());
+        std::sort(distances.begin(), distances.end());
+        ASSERT_EQ(distances.size(), expected.size()) << i;
+        for (std::size_t n = 0; n < expected.size(); ++n)
+            ASSERT_NEAR(distances[n], expected[n], 1e-12) << i;
+        found_some += found.empty() ? 0 : 1;
+    }
+    EXPECT_GT(found_some, 300u);
+}
+
 /// The graph, and one search after the other; in any order of the points, from any side.
 TEST(across_lines, is_the_same_however_it_is_asked) {
     auto points = ground();

@@ -158,7 +158,7 @@ TEST(normal_belief, is_vague_where_a_flatter_plane_would_be) {
         const double a = random.uniform(0.0, 0.15), b = random.uniform(0.0, 0.15);
         const gnomon::detail::tangent_matrix p{a, random.uniform(-1.0, 1.0) * std::sqrt(a * b), b};
         const bool here = is_vague_within(0.0, frame, p, u);
-        EXPECT_EQ(here, a + b > 0.1) << a + b;
+        EXPECT_EQ(here, a + b > gnomon::detail::vague_trace) << a + b;
         const bool flatter = is_vague_within(2.0, frame, p, u);
         EXPECT_TRUE(flatter || !here);
         EXPECT_TRUE(is_vague_within(4.0, frame, p, u) || !flatter);

@@ -176,6 +176,22 @@ TEST(street, has_recesses_in_flat_walls) {
     EXPECT_GT(panes, 5000u);
 }
 
+/// The same objects at the same places, but without openings, wheels and slanted faces.
+TEST(street, can_be_plain) {
+    for (const auto seed : some_seeds) {
+        const auto detailed = street({.seed = seed}), plain = street({.plain = true, .seed = seed});
+        EXPECT_EQ(plain.objects(), detailed.objects());
+        EXPECT_EQ(plain.sensor.position, detailed.sensor.position);
+        for (const auto& surface : plain.surfaces()) {
+            const std::string& part = plain.parts()[static_cast<std::size_t>(surface.part)].name;
+            EXPECT_FALSE(part == "cabin" || part.starts_with("wheel")) << part;
+            EXPECT_FALSE(surface.name.starts_with("window") || surface.name.starts_with("door"));
+        }
+        EXPECT_NE(plain.find_surface("house 3/facade/wall"), sim::nothing);
+        EXPECT_NE(plain.find_surface("car 2/body/+x"), sim::nothing);
+    }
+}
+
 /// Rays pass through crowns and hedges, and both give returns from their depth.
 TEST(street, has_leaves_with_gaps) {
     const auto world = street({.seed = 20'001});

@@ -46,7 +46,7 @@ namespace detail {
 
 /// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`. Normal and
 /// trust are those of `ray_ls`; `weak` as well where the trace of the covariance is above
-/// 0.1 rad^2, or would be for a plane whose slope across the ray is 3 standard deviations less.
+/// 0.09 rad^2, or would be for a plane whose slope across the ray is 3 standard deviations less.
 struct plane_eif {
     noise_curve noise = constant_noise{};  ///< of the sensor
     ray_ls fit = {};                       ///< the regression

@@ -154,7 +154,7 @@ struct plane_filter {
 /// [rad] and `prior_distance` [m] of an uninformative prior.
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not converge, or where the
-/// trace of the covariance is above 0.1 rad^2, or would be for a plane whose slope across the ray
+/// trace of the covariance is above 0.09 rad^2, or would be for a plane whose slope across the ray
 /// is 3 standard deviations less; if all rays are grazing, the covariance is that of the prior.
 /// `not_finite` where the view point is not finite.
 using plane_ekf = detail::plane_filter<detail::by_derivative>;

@@ -30,7 +30,7 @@ namespace gnomon {
 /// Models `ray_estimator`. Wraps any estimator whose result is a `normal_estimate`. O(k) more than
 /// the estimator.
 ///
-/// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.1 rad^2, or
+/// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.09 rad^2, or
 /// would be for a plane whose slope across the ray is 3 standard deviations less. The covariance is
 /// (pi/2)^2 in both directions, its largest value, where the ray is grazing, or where the points
 /// without their noise do not form a plane: they must exceed it significantly, by 3 standard

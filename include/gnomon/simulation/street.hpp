@@ -16,6 +16,7 @@ namespace gnomon::simulation::scenes {
 struct street_options {
     double length = 120.0;  ///< along x, with the sensor in the middle [m]
     double kerb = 0.12;     ///< height of the pavements above the road [m]
+    bool plain = false;     ///< houses without windows and doors; vehicles are boxes
     bool own_car = false;   ///< a car below the sensor, which stands where the street's sensor is
     std::uint64_t seed = 1;
 };
@@ -36,6 +37,9 @@ struct street_options {
 ///     tree 1/trunk/mantle              tree 1/crown/leaves            hedge 1/body/leaves
 ///     pole 1/post/mantle               pole 1/sign/-x                 pole 2/lamp/-z
 ///
+/// In a plain street, the same objects stand at the same places; a vehicle has the sides of a box,
+/// "body/+x" to "body/-z".
+///
 /// The wall of a facade is one surface without its recesses, which are 0.10 to 0.20 m deep. The
 /// kerb is the upright step only; its upper side belongs to the pavement.
 /// @throws std::invalid_argument  unless the length is from 20 to 1,000 m and the kerb from 0.01 to
@@ -45,7 +49,7 @@ struct street_options {
                             "street: the length must be from 20 to 1,000 m");
     gnomon::detail::require(options.kerb >= 0.01 && options.kerb <= 0.5,
                             "street: the kerb must be from 0.01 to 0.5 m high");
-    detail::street_builder builder(options.length, options.kerb, options.seed);
+    detail::street_builder builder(options.length, options.kerb, options.plain, options.seed);
     if (options.own_car) builder.add_own_car();
     return builder.world();
 }

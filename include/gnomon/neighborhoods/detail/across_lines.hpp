@@ -80,9 +80,9 @@ class across_lines {
         }
         for (const auto& offset : around_) line.add(offset);
         line.fit();
-        counts_ = {};
-        for (const auto& offset : around_) ++counts_[line.quadrant(offset)];
-        const std::size_t left = counts_[2], right = counts_[3];
+        std::array<std::size_t, 4> counts{};
+        for (const auto& offset : around_) ++counts[line.quadrant(offset)];
+        const std::size_t left = counts[2], right = counts[3];
         const bool lacks_some =
             left + right < enough || (what_ == lacking::a_side && (left == 0 || right == 0));
         if (lacks_some) find(i, u, plane, line);
@@ -122,33 +122,43 @@ class across_lines {
     static constexpr std::size_t enough = 3;      // neighbors across the line
     static constexpr std::size_t wanted = 4;      // in each quadrant
     static constexpr double most_spacings = 2.0;  // between rays next to each other
+    static constexpr std::size_t many = 256;      // rays to look at
+
+    /// The nearest of some rays, in order.
+    struct nearest_few {
+        std::array<neighbor, wanted> rays;
+        std::size_t count;
+
+        [[nodiscard]] bool takes(const neighbor& q) const {
+            return count < wanted || q < rays.back();
+        }
+        void insert(const neighbor& q) {
+            if (count < wanted) ++count;
+            std::size_t at = count - 1;
+            for (; at > 0 && q < rays[at - 1]; --at) rays[at] = rays[at - 1];
+            rays[at] = q;
+        }
+    };
 
     void find(point_index i, const Eigen::Vector3d& u, const auto& plane, const auto& line) {
         if (rays_ == nullptr) {
             rays_ = &directions_of(index_, sequential{});  // only where they are needed
             const auto& [along, across] = rays_->spacing();
             reach_ = most_spacings * std::max(along, across).radians();
-            // As many as are on three lines, up to the distance of the next line.
-            const double ratio = along.radians() > 0.0 ? across.radians() / along.radians() : 0.0;
-            first_ = static_cast<std::size_t>(8.0 * std::clamp(ratio, 4.0, 16.0));
         }
-        constexpr std::size_t many = 256;  // rays to look at; chosen likewise
-        for (std::size_t count = first_; count <= many; count *= 4) {
-            search_tree(rays_->tree(), u,
-                        {.k = count, .squared_radius = reach_ * reach_, .except = i}, near_);
-            counts_ = {};
-            std::size_t full = 0;  // quadrants
-            found_.clear();
-            for (const neighbor& q : near_) {
-                if (q.squared_distance < same_ray) continue;
-                std::size_t& in_quadrant =
-                    counts_[line.quadrant(plane.offset(rays_->direction(q)))];
-                if (in_quadrant == wanted || !is_beside(i, q.index)) continue;
-                full += ++in_quadrant == wanted ? 1 : 0;
-                found_.push_back(q.index);
-            }
-            if (full == counts_.size() || near_.size() < count) return;
+        search_tree_unsorted(rays_->tree(), u,
+                             {.k = many, .squared_radius = reach_ * reach_, .except = i}, near_);
+        std::array<nearest_few, 4> quadrants{};
+        for (const neighbor& q : near_) {
+            if (q.squared_distance < same_ray) continue;
+            nearest_few& around = quadrants[line.quadrant(plane.offset(rays_->direction(q)))];
+            if (around.takes(q) && is_beside(i, q.index)) around.insert(q);
         }
+        near_.clear();
+        for (const nearest_few& q : quadrants)
+            near_.insert(near_.end(), q.rays.data(), q.rays.data() + q.count);
+        std::sort(near_.begin(), near_.end());
+        for (const neighbor& q : near_) found_.push_back(q.index);
     }
 
     /// Whether two points may be on one surface that is seen from about one place: the straight
@@ -168,9 +178,7 @@ class across_lines {
     const Index& index_;
     lacking what_;
     const directions_of_index<Index>* rays_ = nullptr;
-    double reach_ = 0.0;     // [rad]
-    std::size_t first_ = 0;  // rays to look at
-    std::array<std::size_t, 4> counts_{};
+    double reach_ = 0.0;  // [rad]
     scratch<neighbor> near_;
     scratch<std::array<Number, 2>> around_;  // offsets of the neighbors' rays
     scratch<point_index> found_;

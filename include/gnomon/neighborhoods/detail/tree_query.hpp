@@ -67,6 +67,12 @@ class tree_query {
     }
 
     void operator()() {
+        collect();
+        finish();
+    }
+
+    /// Finds what is wanted, in no order; if ties are wanted, all that may be.
+    void collect() {
         if (tree_.size() == 0 || question_.k == 0) return;
         std::array<pending, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
         std::size_t depth = 0;
@@ -84,7 +90,7 @@ class tree_query {
             stack[depth++] = a.squared <= b.squared ? b : a;
             stack[depth++] = a.squared <= b.squared ? a : b;
         }
-        finish();
+        if (found_.size() > most_) drop_farthest();
     }
 
   private:
@@ -159,7 +165,6 @@ class tree_query {
     }
 
     void finish() {
-        if (found_.size() > most_) drop_farthest();
         std::sort(found_.data(), found_.data() + found_.size());
         if (found_.size() <= question_.k) return;
         found_.resize(question_.ties == tie_rule::all ? size_with_ties(found_, question_.k, most_)
@@ -185,6 +190,13 @@ template <class Metric = canonical_metric, class Allocator>
 void search_tree(const leaf_tree& tree, const Eigen::Vector3d& p, const tree_question& question,
                  std::vector<neighbor, Allocator>& found, const Metric& metric = {}) {
     tree_query(tree, p, question, metric, found)();
+}
+
+/// The same in no order.
+template <class Allocator>
+void search_tree_unsorted(const leaf_tree& tree, const Eigen::Vector3d& p,
+                          const tree_question& question, std::vector<neighbor, Allocator>& found) {
+    tree_query(tree, p, question, canonical_metric{}, found).collect();
 }
 
 /// Calls visit(begin, end) for each leaf that is at most `radius` [m] from p and has places of a

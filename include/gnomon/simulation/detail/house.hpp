@@ -30,6 +30,7 @@ struct house {
     int storeys = 2;       ///< rows of windows
     int bays = 4;          ///< columns of windows
     int door = 1;          ///< number of the bay of the door, from 0
+    bool openings = true;  ///< whether there are windows and a door
     double window_width = 1.2;
     double sill = 0.9;    ///< height of the lower edge of a window above its storey
     double lintel = 2.3;  ///< height of the upper edge of windows and door above their storey
@@ -85,6 +86,11 @@ inline void add_recess(mesh_builder& b, const std::string& name, const facade_ce
 
     mesh_builder wall;
     wall.surface("wall");
+    if (!h.openings) {
+        wall.face({Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(h.width, 0.0, 0.0),
+                   Eigen::Vector3d(h.width, 0.0, h.eaves), Eigen::Vector3d(0.0, 0.0, h.eaves)});
+        return wall.mesh();
+    }
     std::vector<facade_cell> windows;
     const auto door = static_cast<std::size_t>(2 * h.door + 1);
     for (std::size_t row = 0; row + 1 < z.size(); ++row) {

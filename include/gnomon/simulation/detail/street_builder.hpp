@@ -27,8 +27,9 @@ namespace gnomon::simulation::detail {
 /// length. The numbers of objects begin with 1 for each kind.
 class street_builder {
   public:
-    street_builder(double length, double kerb, std::uint64_t seed)
+    street_builder(double length, double kerb, bool plain, std::uint64_t seed)
         : random_(seed),
+          plain_(plain),
           end_(0.5 * length),
           kerb_(kerb),
           lane_(random_.uniform(3.0, 3.4)),
@@ -86,6 +87,7 @@ class street_builder {
             h.recess = random_.uniform(0.10, 0.20);
             h.window_width = random_.uniform(1.0, 1.4);
             h.door = static_cast<int>(random_.below(static_cast<std::size_t>(h.bays)));
+            h.openings = !plain_;
             const bool has_garden = random_.uniform() < 0.5;
             const double setback =
                 has_garden ? random_.uniform(1.5, 3.0) : random_.uniform(0.0, 0.5);
@@ -137,7 +139,14 @@ class street_builder {
     /// A car or a van of random size, at a place of the side, along -x.
     void add_vehicle(const vehicle& v, const std::string& kind, double x, double y) {
         const angle turned = degrees(180.0 + random_.uniform(-1.5, 1.5));
-        add(world_, next(kind), v, side_ * at(x, y, 0.0) * yaw(turned));
+        const pose place = side_ * at(x, y, 0.0) * yaw(turned);
+        if (plain_) {
+            object_builder(world_, next(kind), place)
+                .part("body")
+                .block(0.0, 0.0, v.length, v.width, v.clearance, v.height);
+        } else {
+            add(world_, next(kind), v, place);
+        }
     }
 
     [[nodiscard]] std::pair<vehicle, std::string> any_vehicle() {
@@ -173,6 +182,7 @@ class street_builder {
 
     scene world_;
     random_stream random_;
+    bool plain_;    ///< whether houses have no openings, and vehicles are boxes
     double end_;    ///< half the length of the street [m]
     double kerb_;   ///< height of the pavements [m]
     double lane_;   ///< width of a lane [m]
