@@ -39,6 +39,7 @@ struct setting {
     double given = 0.0;      // noise [m]; measured, if 0
     double misplaced = 0.0;  // the view point, along the road [m]
     bool plain = false;      // the street
+    double crown = 0.0;      // of the road [m]
 };
 
 std::vector<setting> settings() {
@@ -48,8 +49,10 @@ std::vector<setting> settings() {
     all.push_back({"32 beams at 15 m/s", some, 15.0});
     for (const auto& [name, lidar] :
          {std::pair("16", few), std::pair("32", some), std::pair("64", many)})
-        all.push_back({std::string(name) + " beams, plain streets", lidar, 0.0, 0.0, 0.0, true});
+        all.push_back(
+            {.name = std::string(name) + " beams, plain streets", .lidar = lidar, .plain = true});
     for (const auto& [name, lidar] : {std::pair("32 beams", some), std::pair("64 beams", many)}) {
+        all.push_back({.name = std::string(name) + ", curved roads", .lidar = lidar, .crown = 0.1});
         all.push_back({std::string(name) + ", half of the noise", lidar, 0.0, 0.5 * sigma});
         all.push_back({std::string(name) + ", twice the noise", lidar, 0.0, 2.0 * sigma});
         all.push_back({std::string(name) + ", view point 1 m off", lidar, 0.0, 0.0, 1.0});
@@ -153,7 +156,8 @@ street_rows rows_of(const setting& s, std::uint64_t first, std::uint64_t count) 
     std::vector<double> errors;  // [degrees]
     std::map<std::string, double> lost;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
-        const sim::scene street = sim::scenes::street({.plain = s.plain, .seed = seed});
+        const sim::scene street =
+            sim::scenes::street({.crown = s.crown, .plain = s.plain, .seed = seed});
         const sim::true_scan truth = sweep(street, s, seed);
         gnomon::perception<> chain;
         if (s.given > 0.0) chain.noise = gnomon::constant_noise{s.given};

@@ -13555,6 +13555,15 @@ class union_find {
         }
     }
 
+    /// Merges the sets of elements that are in one set of another, of n elements or fewer. O(n log
+    /// n) amortised.
+    void unite_as(union_find& other) {
+        for (std::size_t i = 0; i < other.size(); ++i) {
+            const auto element = static_cast<point_index>(i);
+            unite(element, other.find(element));
+        }
+    }
+
   private:
     using parent = std::atomic<point_index>;
 
@@ -15503,6 +15512,9 @@ namespace gnomon::detail {
     return beyond > most_deviations * std::sqrt(tilt_variance(a, axis) + tilt_variance(b, axis));
 }
 
+/// Planes that meet at more do so at an edge, which is as sharp as the noise lets it be seen.
+inline constexpr angle widest_crease = degrees(30);  // numerical
+
 /// Whether two planes certainly meet at an edge, even of a surface that is rough.
 [[nodiscard]] bool are_at_edge(const auto& a, const auto& b) {
     // By less, rough surfaces are several planes; chosen on furnished rooms 20,001 to 20,012 and
@@ -15591,6 +15603,81 @@ namespace gnomon::detail {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/parabola_test.hpp -------------------------------------------
+
+/// @file
+/// Whether a curved surface explains the means of parts of a region better than planes do: a
+/// parabola along one direction, or a paraboloid. Their weighted squared residuals are compared.
+
+namespace gnomon::detail {
+
+/// The terms of a height over a plane with the coordinates x and y: 1, x, y, x^2, then x y, y^2.
+enum class curved_terms : std::size_t {
+    parabola = 4,   // formula
+    paraboloid = 6  // formula
+};
+
+/// The comparison for at most `count` parts.
+template <std::size_t count, curved_terms which>
+class parabola_test {
+  public:
+    /// @param all    the sums of all parts
+    /// @param along  the direction of x, of unit length
+    parabola_test(const plane_sums& all, const Eigen::Vector3d& along)
+        : whole_(all.fit()), along_(along), across_(cross(whole_.plane.normal, along)) {}
+
+    /// Adds a part, unless it is empty.
+    /// @param own  the plane that explains it
+    void add(const plane_sums& part, const plane& own) {
+        if (part.count == 0) return;
+        const Eigen::Vector3d mean = part.positions.mean();
+        const Eigen::Vector3d offset = difference(mean, whole_.centroid);
+        const double x = dot(along_, offset), y = dot(across_, offset);
+        const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
+        for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t][size_] = at[t];
+        height_[size_] = whole_.plane.signed_distance(mean);
+        weight_[size_] = part.positions.weight;
+        const double off = own.signed_distance(mean);
+        of_planes_ += weight_[size_] * off * off;
+        ++size_;
+    }
+
+    /// The surface is fit by making its terms orthogonal one after the other. To be called once.
+    [[nodiscard]] bool is_curved() {
+        for (std::size_t t = 0; t < terms_.size(); ++t) {
+            for (std::size_t before = 0; before < t; ++before) remove(terms_[before], terms_[t]);
+            remove(terms_[t], height_);
+        }
+        return of_planes_ > product(height_, height_);
+    }
+
+  private:
+    using values = std::array<double, count>;  // of the parts
+
+    [[nodiscard]] double product(const values& a, const values& b) const {
+        double sum = 0.0;
+        for (std::size_t p = 0; p < size_; ++p) sum += weight_[p] * a[p] * b[p];
+        return sum;
+    }
+
+    /// Makes values orthogonal to others.
+    void remove(const values& others, values& from) const {
+        const double squared = product(others, others);
+        if (!(squared > 0.0)) return;
+        const double share = product(others, from) / squared;
+        for (std::size_t p = 0; p < size_; ++p) from[p] -= share * others[p];
+    }
+
+    region_plane whole_;
+    Eigen::Vector3d along_, across_;
+    std::size_t size_ = 0;
+    double of_planes_ = 0.0;
+    std::array<values, static_cast<std::size_t>(which)> terms_{};
+    values height_{}, weight_{};
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/detail/strips.hpp --------------------------------------------------
 
 /// @file
@@ -15650,38 +15737,15 @@ class strips {
                       2.0 * width_ / static_cast<double>(count), members);
     }
 
-    /// Whether a surface that is curved along the strips, a parabola, explains their means better
-    /// than the two planes of a cut: the residuals of either are compared, where the parabola is
-    /// fit by making its terms orthogonal one after the other.
+    /// Whether a surface that is curved along the strips explains their means better than the two
+    /// planes of a cut.
     [[nodiscard]] bool is_curved(std::size_t cut) const {
         const auto [a, b] = sides_of(cut);
         plane_sums all = a.sums;
         all.add(b.sums);
-        const region_plane whole = all.fit();
-        const Eigen::Vector3d across = cross(whole.plane.normal, along_);
-        std::array<double, count> height{}, one{}, square{}, first{}, second{};
-        double of_planes = 0.0;
-        for (std::size_t s = 0; s < count; ++s) {
-            if (sums_[s].count == 0) continue;
-            const Eigen::Vector3d mean = sums_[s].positions.mean();
-            const Eigen::Vector3d offset = difference(mean, whole.centroid);
-            const double off = (s < cut ? a : b).fit.plane.signed_distance(mean);
-            of_planes += sums_[s].positions.weight * off * off;
-            one[s] = 1.0;
-            first[s] = dot(along_, offset);
-            second[s] = dot(across, offset);
-            square[s] = first[s] * first[s];
-            height[s] = whole.plane.signed_distance(mean);
-        }
-        remove(one, first);
-        remove(one, second);
-        remove(first, second);
-        for (const auto* of_plane : {&one, &first, &second}) {
-            remove(*of_plane, square);
-            remove(*of_plane, height);
-        }
-        remove(square, height);
-        return of_planes > product(height, height);
+        parabola_test<count, curved_terms::parabola> test(all, along_);
+        for (std::size_t s = 0; s < count; ++s) test.add(sums_[s], (s < cut ? a : b).fit.plane);
+        return test.is_curved();
     }
 
   private:
@@ -15696,21 +15760,6 @@ class strips {
         for (std::size_t s = 0; s < count; ++s) sides[s < cut ? 0 : 1].sums.add(sums_[s]);
         for (planar_region& side : sides) side.fit = side.sums.fit();
         return sides;
-    }
-
-    /// Of values of the strips, weighted.
-    [[nodiscard]] double product(const auto& a, const auto& b) const {
-        double sum = 0.0;
-        for (std::size_t s = 0; s < count; ++s) sum += sums_[s].positions.weight * a[s] * b[s];
-        return sum;
-    }
-
-    /// Makes values orthogonal to others.
-    void remove(const auto& others, auto& from) const {
-        const double squared = product(others, others);
-        if (!(squared > 0.0)) return;
-        const double part = product(others, from) / squared;
-        for (std::size_t s = 0; s < count; ++s) from[s] -= part * others[s];
     }
 
     const Cloud* cloud_;
@@ -15768,8 +15817,7 @@ template <class Cloud>
                                               const auto& regions, std::size_t first,
                                               std::size_t second, std::size_t min_points) {
     const auto &a = regions[first], &b = regions[second];
-    constexpr angle most = degrees(30);  // numerical: at more, noise hides the edge alone
-    if (!are_at_crease(a, b) || are_turned(a, b, most)) return std::nullopt;
+    if (!are_at_crease(a, b) || are_turned(a, b, widest_crease)) return std::nullopt;
     const Eigen::Vector3d& n = a.fit.plane.normal;
     const Eigen::Vector3d& m = b.fit.plane.normal;
     const double cosine = dot(n, m), turn = cosine < 0.0 ? -1.0 : 1.0;
@@ -29238,6 +29286,96 @@ struct cells {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/curved_pieces.hpp -------------------------------------------
+
+/// @file
+/// Planar pieces of a curved surface: a road that falls to its sides is several planes next to each
+/// other. Two regions belong to one surface if a paraboloid explains both better than their planes
+/// do. At a crease or a step the planes are better.
+
+namespace gnomon::detail {
+
+/// A grid of side x side parts over the extent of some places.
+template <std::size_t side>
+class part_grid {
+  public:
+    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
+
+    void enclose(const Eigen::Vector3d& place) {
+        for (std::size_t a = 0; a < 2; ++a) {
+            low_[a] = std::min(low_[a], dot(axes_[a], place));
+            high_[a] = std::max(high_[a], dot(axes_[a], place));
+        }
+    }
+    [[nodiscard]] std::size_t part_of(const Eigen::Vector3d& place) const {
+        return number(0, place) * side + number(1, place);
+    }
+
+  private:
+    [[nodiscard]] std::size_t number(std::size_t a, const Eigen::Vector3d& place) const {
+        const double extent = high_[a] - low_[a];
+        if (!(extent > 0.0)) return 0;
+        constexpr auto parts = static_cast<double>(side);
+        return static_cast<std::size_t>(
+            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
+    }
+
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    std::array<Eigen::Vector3d, 2> axes_;
+    std::array<double, 2> low_{none, none}, high_{-none, -none};
+};
+
+/// Whether two regions next to each other are pieces of one curved surface: their planes are
+/// certainly turned, and not at an edge. O(n)
+/// @param cloud  a planar_cloud
+/// @param a, b   planar_regions
+/// @param of_a   members, all finite; likewise of_b
+template <class Cloud>
+[[nodiscard]] bool are_of_curved_surface(const Cloud& cloud, const auto& a,
+                                         std::span<const point_index> of_a, const auto& b,
+                                         std::span<const point_index> of_b) {
+    constexpr angle least = degrees(0.5);  // numerical: parallel planes meet in no line
+    if (!are_turned(a, b, least) || are_turned(a, b, widest_crease)) return false;
+    const Eigen::Vector3d &n = a.fit.plane.normal, &m = b.fit.plane.normal;
+    plane_sums all = a.sums;
+    all.add(b.sums);
+    const Eigen::Vector3d along = direction_of(cross(n, m));
+    const Eigen::Vector3d across = cross(all.fit().plane.normal, along);
+    constexpr std::size_t side = 8;  // numerical: parts of a region along it, and across
+    part_grid<side> grid(along, across);
+    for (const auto& members : {of_a, of_b})
+        for (const point_index i : members) grid.enclose(cloud.offsets[i]);
+    parabola_test<2 * side * side, curved_terms::paraboloid> test(all, along);
+    for (const auto& [region, members] : {std::pair(&a, of_a), std::pair(&b, of_b)}) {
+        std::array<plane_sums, side * side> parts{};
+        for (const point_index i : members) cloud.add(i, parts[grid.part_of(cloud.offsets[i])]);
+        for (const plane_sums& part : parts) test.add(part, region->fit.plane);
+    }
+    return test.is_curved();
+}
+
+/// The sets of regions next to each other that are pieces of one curved surface. O(n) for each pair
+/// of them.
+/// @param graph    the neighbors whose labels compete for each point
+/// @param labels   numbers of the regions
+template <neighborhood_graph G, execution X>
+[[nodiscard]] union_find curved_surfaces(const planar_cloud& cloud, const G& graph,
+                                         const auto& labels, const scratch<planar_region>& regions,
+                                         const X& run) {
+    scratch<char> is_border = borders_of(graph, labels, run);
+    const auto pairs = compete(cloud, graph, regions, labels, is_border, run).touching;
+    const label_groups parts(labels);
+    union_find sets(regions.size());
+    run(pairs.size(), [&](std::size_t p) {
+        const auto& [a, b] = pairs[p];
+        if (are_of_curved_surface(cloud, regions[a], parts[a], regions[b], parts[b]))
+            sets.unite(a, b);
+    });
+    return sets;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/perception/detail/cell_surfaces.hpp ---------------------------------------------
 
 /// @file
@@ -29346,12 +29484,20 @@ class cell_surfaces {
                                            planes.max_angle, is_independent, run));
     }
 
-    /// For each point the number of its region, or `unlabeled`.
+    /// For each point the number of its region, or `unlabeled`; those of pieces of one curved
+    /// surface are the same.
     template <execution X>
-    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
-        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_, labels(),
-                                        regions_->regions(), run);
+    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) {
+        const auto& regions = regions_->regions();
+        auto of_points = detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_,
+                                                  labels(), regions, run);
+        curved_ = curved_surfaces(*cloud_, *near_, labels(), regions, run);
+        unite_labels(of_points, curved_);
+        return of_points;
     }
+    /// The sets of regions that are pieces of one curved surface, after labels_of_points(). Gives
+    /// them away.
+    [[nodiscard]] union_find curved() { return std::move(curved_); }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
     [[nodiscard]] const planar_cloud& cloud() const { return *cloud_; }
@@ -29374,6 +29520,7 @@ class cell_surfaces {
     spatial_index& index_;
     surface_type& surface_;
     cells cells_;
+    union_find curved_;                   // of regions
     std::optional<scratch_graph> graph_;  // the nearest neighbors first, then others
     std::optional<first_neighbors<scratch_graph>> near_;  // the nearest of these
     std::optional<planar_cloud> cloud_;
@@ -29597,7 +29744,7 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 result_.memory.parts.assign(found->labels());
-                merge(found->index(), found->cloud(), labels,
+                merge(found->index(), found->cloud(), labels, found->curved(),
                       [&](point_index c) { return found->point_of(c); });
             });
     }
@@ -29632,23 +29779,24 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 const planar_cloud cloud(*given_, result_.noise.of_planes, run_, true);
-                merge(*given_, cloud, labels, std::identity());
+                merge(*given_, cloud, labels, union_find(), std::identity());
             });
     }
 
-    /// Merges the segments in memory, of things that are cells or kept points, where the noise
-    /// along the rays is known.
-    /// @param cloud     of these
+    /// Merges the segments in memory, where the noise along the rays is known.
+    /// @param things, cloud  cells or kept points
     /// @param labels    the segments of the kept points
+    /// @param together  the sets of segments that are one in any case
     /// @param point_of  point_of(thing): the number of a kept point of it
     void merge(const spatial_index& things, const planar_cloud& cloud,
-               scratch<std::int32_t>& labels, auto&& point_of) {
+               scratch<std::int32_t>& labels, union_find together, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
         const visibility visible(points_, with_noise(chain_.visibility, noise), run_, projection_);
         union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
                                       with_noise(chain_.merging, noise), run_,
                                       [&](const examined_gap& gap) { note(gap, point_of); });
+        sets.unite_as(together);
         unite_labels(labels, sets);
         set_segments(result_.surfaces, labels);
     }
@@ -29736,8 +29884,8 @@ struct floor_and_ceiling {
 struct no_merging {};
 
 /// Planes (`segment_planes`), on cells of the points: for every sensor, as the lengths by which
-/// planes are found follow from its noise and a flatness of 2 mm. Curved surfaces are several
-/// planes. `min_points` counts cells.
+/// planes are found follow from its noise and a flatness of 2 mm. Planes that are pieces of a
+/// curved surface become one (segmentation/detail/curved_pieces.hpp). `min_points` counts cells.
 struct planes_on_cells {
     segment_planes_options planes{};  ///< angle and number of cells
 };
@@ -30871,6 +31019,19 @@ namespace densities {
 
 namespace gnomon::simulation {
 
+namespace detail {
+
+/// Of the middle of a pixel from the optical axis, at the depth 1.
+/// @param number        of the pixel in its row or column
+/// @param size          of that [pixels]
+/// @param focal_length  [pixels]
+[[nodiscard]] inline double pixel_offset(std::size_t number, std::size_t size,
+                                         double focal_length) {
+    return (static_cast<double>(number) + 0.5 - 0.5 * static_cast<double>(size)) / focal_length;
+}
+
+}  // namespace detail
+
 /// A depth camera. The default is an ideal pinhole camera of the size of a Kinect.
 struct depth_camera {
     std::size_t columns = 640;                ///< of pixels
@@ -30887,7 +31048,8 @@ struct depth_camera {
 
     /// The direction of a pixel in the sensor's frame, of length 1; pixels are numbered row by row.
     [[nodiscard]] Eigen::Vector3d direction(std::size_t pixel) const {
-        const double right = offset(pixel % columns, columns), down = offset(pixel / columns, rows);
+        const double right = detail::pixel_offset(pixel % columns, columns, focal_length);
+        const double down = detail::pixel_offset(pixel / columns, rows, focal_length);
         const double scale = 1.0 / std::sqrt(1.0 + right * right + down * down);
         return {scale, -right * scale, -down * scale};
     }
@@ -30928,14 +31090,9 @@ struct depth_camera {
         require(min_depth >= 0.0 && min_depth < max_depth && std::isfinite(max_depth),
                 "depth_camera: needs 0 <= min_depth < max_depth, finite");
     }
-
-  private:
-    /// Of the middle of a pixel from the optical axis, at the depth 1.
-    [[nodiscard]] double offset(std::size_t number, std::size_t size) const {
-        return (static_cast<double>(number) + 0.5 - 0.5 * static_cast<double>(size)) / focal_length;
-    }
 };
 
+/// Published depth cameras, with the noise of their depths.
 namespace scanners {
 
 /// A camera of structured light, the first Kinect: 58 degrees, disparities in eighths of a pixel
@@ -34758,16 +34915,18 @@ namespace gnomon::simulation::detail {
 /// length. The numbers of objects begin with 1 for each kind.
 class street_builder {
   public:
-    street_builder(double length, double kerb, bool plain, std::uint64_t seed)
+    street_builder(double length, double kerb, double crown, bool plain, std::uint64_t seed)
         : random_(seed),
           plain_(plain),
           end_(0.5 * length),
           kerb_(kerb),
+          crown_(crown),
           lane_(random_.uniform(3.0, 3.4)),
           road_(lane_ + random_.uniform(2.4, 2.8)),
           front_(road_ + random_.uniform(2.8, 3.8)) {
-        world_.sensor = at(0.0, -0.5 * lane_, random_.uniform(1.7, 2.0));
-        world_.add_object("road", plane_patch{length, 2.0 * road_});
+        const double above = random_.uniform(1.7, 2.0);
+        world_.sensor = at(0.0, -0.5 * lane_, height(0.5 * lane_) + above);
+        add_road();
         for (const auto& [name, turned] : {std::pair{"left", 0.0}, std::pair{"right", 180.0}}) {
             side_ = yaw(degrees(turned));
             add_ground(name);
@@ -34782,7 +34941,7 @@ class street_builder {
     void add_own_car() {
         const vehicle car;
         const double roof = 0.5 * (car.boot + car.rear_window - car.bonnet - car.windscreen);
-        add(world_, "own car", car, at(-roof, world_.sensor.position.y(), 0.0));
+        add(world_, "own car", car, at(-roof, -0.5 * lane_, height(0.5 * lane_)));
     }
 
     [[nodiscard]] const scene& world() const { return world_; }
@@ -34791,6 +34950,28 @@ class street_builder {
     /// "tree 3"
     [[nodiscard]] std::string next(const std::string& kind) {
         return numbered(kind, ++count_[kind]);
+    }
+
+    /// How high the road is at a distance from its middle [m]: a parabola.
+    [[nodiscard]] double height(double y) const { return crown_ * (1.0 - y * y / (road_ * road_)); }
+
+    void add_road() {
+        if (crown_ == 0.0) {
+            world_.add_object("road", plane_patch{2.0 * end_, 2.0 * road_});
+            return;
+        }
+        constexpr int strips = 32;  // numerical: each is within .1 mm of the parabola
+        mesh_builder road;
+        road.surface("plane");
+        for (int s = 0; s < strips; ++s) {
+            const double right = road_ * (2.0 * s / strips - 1.0);
+            const double left = right + road_ * 2.0 / strips;
+            road.face({Eigen::Vector3d(-end_, right, height(right)),
+                       Eigen::Vector3d(end_, right, height(right)),
+                       Eigen::Vector3d(end_, left, height(left)),
+                       Eigen::Vector3d(-end_, left, height(left))});
+        }
+        world_.add_object("road", road.mesh());
     }
 
     /// The pavement reaches below the houses and to the gaps between them.
@@ -34870,7 +35051,7 @@ class street_builder {
     /// A car or a van of random size, at a place of the side, along -x.
     void add_vehicle(const vehicle& v, const std::string& kind, double x, double y) {
         const angle turned = degrees(180.0 + random_.uniform(-1.5, 1.5));
-        const pose place = side_ * at(x, y, 0.0) * yaw(turned);
+        const pose place = side_ * at(x, y, height(y)) * yaw(turned);
         if (plain_) {
             object_builder(world_, next(kind), place)
                 .part("body")
@@ -34916,6 +35097,7 @@ class street_builder {
     bool plain_;    ///< whether houses have no openings, and vehicles are boxes
     double end_;    ///< half the length of the street [m]
     double kerb_;   ///< height of the pavements [m]
+    double crown_;  ///< height of the middle of the road [m]
     double lane_;   ///< width of a lane [m]
     double road_;   ///< half the width of the road, from kerb to kerb [m]
     double front_;  ///< the end of the pavement, from the middle of the road [m]
@@ -34936,17 +35118,18 @@ namespace gnomon::simulation::scenes {
 /// Options of street().
 struct street_options {
     double length = 120.0;  ///< along x, with the sensor in the middle [m]
-    double kerb = 0.12;     ///< height of the pavements above the road [m]
+    double kerb = 0.12;     ///< height of the pavements above the sides of the road [m]
+    double crown = 0.0;     ///< height of the middle of the road above its sides [m]
     bool plain = false;     ///< houses without windows and doors; vehicles are boxes
     bool own_car = false;   ///< a car below the sensor, which stands where the street's sensor is
     std::uint64_t seed = 1;
 };
 
-/// A straight street along x on the plane z = 0: a road of two lanes of 3.0 to 3.4 m and two rows
-/// of parked vehicles, pavements of 2.8 to 3.8 m and houses of 2 to 4 storeys, half of them behind
-/// hedges. The sensor is level, on the right lane, 1.7 to 2.0 m above the road, and looks along the
-/// lane; no vehicle is less than 6 m before or behind it in its lane. Windows reflect as walls do,
-/// and all vehicles stand still.
+/// A straight street along x on the plane z = 0, above which a road may be curved: a road of two
+/// lanes of 3.0 to 3.4 m and two rows of parked vehicles, pavements of 2.8 to 3.8 m and houses of 2
+/// to 4 storeys, half of them behind hedges. The sensor is level, on the right lane, 1.7 to 2.0 m
+/// above the road, and looks along the lane; no vehicle is less than 6 m before or behind it in its
+/// lane. Windows reflect as walls do, and all vehicles stand still.
 ///
 /// Objects have stable names, with numbers from 1 for each kind; objects of the left side come
 /// first. The surfaces that a segmentation should find whole, by their full names:
@@ -34963,14 +35146,18 @@ struct street_options {
 ///
 /// The wall of a facade is one surface without its recesses, which are 0.10 to 0.20 m deep. The
 /// kerb is the upright step only; its upper side belongs to the pavement.
-/// @throws std::invalid_argument  unless the length is from 20 to 1,000 m and the kerb from 0.01 to
-///                                0.5 m high
+/// @throws std::invalid_argument  unless the length is from 20 to 1,000 m, the kerb from 0.01 to
+/// 0.5
+///                                m high, and the crown of the road from 0 to 0.5 m
 [[nodiscard]] inline scene street(const street_options& options = {}) {
     gnomon::detail::require(options.length >= 20.0 && options.length <= 1000.0,
                             "street: the length must be from 20 to 1,000 m");
     gnomon::detail::require(options.kerb >= 0.01 && options.kerb <= 0.5,
                             "street: the kerb must be from 0.01 to 0.5 m high");
-    detail::street_builder builder(options.length, options.kerb, options.plain, options.seed);
+    gnomon::detail::require(options.crown >= 0.0 && options.crown <= 0.5,
+                            "street: the crown of the road must be from 0 to 0.5 m high");
+    detail::street_builder builder(options.length, options.kerb, options.crown, options.plain,
+                                   options.seed);
     if (options.own_car) builder.add_own_car();
     return builder.world();
 }

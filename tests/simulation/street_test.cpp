@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -190,6 +191,31 @@ TEST(street, can_be_plain) {
         EXPECT_NE(plain.find_surface("house 3/facade/wall"), sim::nothing);
         EXPECT_NE(plain.find_surface("car 2/body/+x"), sim::nothing);
     }
+}
+
+/// A parabola from kerb to kerb, on which the vehicles stand.
+TEST(street, can_have_a_curved_road) {
+    constexpr double crown = 0.1;
+    for (const auto seed : some_seeds) {
+        const auto flat = street({.seed = seed}), curved = street({.crown = crown, .seed = seed});
+        EXPECT_EQ(curved.objects(), flat.objects());
+        const double lifted = curved.sensor.position.z() - flat.sensor.position.z();
+        EXPECT_GT(lifted, 0.5 * crown);
+        EXPECT_LT(lifted, crown);
+        const auto truth = sweep_of(curved);
+        const auto road = curved.find_surface("road/body/plane");
+        double low = crown, high = 0.0;
+        for (std::size_t i = 0; i < truth.scan.size(); ++i) {
+            if (truth.surfaces[i] != road) continue;
+            low = std::min(low, truth.scan.points[i].z());
+            high = std::max(high, truth.scan.points[i].z());
+        }
+        EXPECT_NEAR(high, crown, 1e-3);
+        EXPECT_LT(low, 0.02);
+        EXPECT_GE(low, -1e-9);
+    }
+    for (const double bad : {-0.1, 0.6, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW((void)street({.crown = bad}), std::invalid_argument);
 }
 
 /// Rays pass through crowns and hedges, and both give returns from their depth.

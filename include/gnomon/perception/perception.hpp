@@ -67,8 +67,8 @@ struct floor_and_ceiling {
 struct no_merging {};
 
 /// Planes (`segment_planes`), on cells of the points: for every sensor, as the lengths by which
-/// planes are found follow from its noise and a flatness of 2 mm. Curved surfaces are several
-/// planes. `min_points` counts cells.
+/// planes are found follow from its noise and a flatness of 2 mm. Planes that are pieces of a
+/// curved surface become one (segmentation/detail/curved_pieces.hpp). `min_points` counts cells.
 struct planes_on_cells {
     segment_planes_options planes{};  ///< angle and number of cells
 };

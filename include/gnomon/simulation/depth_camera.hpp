@@ -23,6 +23,19 @@
 
 namespace gnomon::simulation {
 
+namespace detail {
+
+/// Of the middle of a pixel from the optical axis, at the depth 1.
+/// @param number        of the pixel in its row or column
+/// @param size          of that [pixels]
+/// @param focal_length  [pixels]
+[[nodiscard]] inline double pixel_offset(std::size_t number, std::size_t size,
+                                         double focal_length) {
+    return (static_cast<double>(number) + 0.5 - 0.5 * static_cast<double>(size)) / focal_length;
+}
+
+}  // namespace detail
+
 /// A depth camera. The default is an ideal pinhole camera of the size of a Kinect.
 struct depth_camera {
     std::size_t columns = 640;                ///< of pixels
@@ -39,7 +52,8 @@ struct depth_camera {
 
     /// The direction of a pixel in the sensor's frame, of length 1; pixels are numbered row by row.
     [[nodiscard]] Eigen::Vector3d direction(std::size_t pixel) const {
-        const double right = offset(pixel % columns, columns), down = offset(pixel / columns, rows);
+        const double right = detail::pixel_offset(pixel % columns, columns, focal_length);
+        const double down = detail::pixel_offset(pixel / columns, rows, focal_length);
         const double scale = 1.0 / std::sqrt(1.0 + right * right + down * down);
         return {scale, -right * scale, -down * scale};
     }
@@ -80,14 +94,9 @@ struct depth_camera {
         require(min_depth >= 0.0 && min_depth < max_depth && std::isfinite(max_depth),
                 "depth_camera: needs 0 <= min_depth < max_depth, finite");
     }
-
-  private:
-    /// Of the middle of a pixel from the optical axis, at the depth 1.
-    [[nodiscard]] double offset(std::size_t number, std::size_t size) const {
-        return (static_cast<double>(number) + 0.5 - 0.5 * static_cast<double>(size)) / focal_length;
-    }
 };
 
+/// Published depth cameras, with the noise of their depths.
 namespace scanners {
 
 /// A camera of structured light, the first Kinect: 58 degrees, disparities in eighths of a pixel

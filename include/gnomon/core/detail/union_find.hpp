@@ -63,6 +63,15 @@ class union_find {
         }
     }
 
+    /// Merges the sets of elements that are in one set of another, of n elements or fewer. O(n log
+    /// n) amortised.
+    void unite_as(union_find& other) {
+        for (std::size_t i = 0; i < other.size(); ++i) {
+            const auto element = static_cast<point_index>(i);
+            unite(element, other.find(element));
+        }
+    }
+
   private:
     using parent = std::atomic<point_index>;
 

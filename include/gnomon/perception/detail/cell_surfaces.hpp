@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -31,6 +32,7 @@
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/perception/perception_result.hpp>
 #include <gnomon/segmentation/detail/cells.hpp>
+#include <gnomon/segmentation/detail/curved_pieces.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
@@ -139,12 +141,20 @@ class cell_surfaces {
                                            planes.max_angle, is_independent, run));
     }
 
-    /// For each point the number of its region, or `unlabeled`.
+    /// For each point the number of its region, or `unlabeled`; those of pieces of one curved
+    /// surface are the same.
     template <execution X>
-    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
-        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_, labels(),
-                                        regions_->regions(), run);
+    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) {
+        const auto& regions = regions_->regions();
+        auto of_points = detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_,
+                                                  labels(), regions, run);
+        curved_ = curved_surfaces(*cloud_, *near_, labels(), regions, run);
+        unite_labels(of_points, curved_);
+        return of_points;
     }
+    /// The sets of regions that are pieces of one curved surface, after labels_of_points(). Gives
+    /// them away.
+    [[nodiscard]] union_find curved() { return std::move(curved_); }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
     [[nodiscard]] const planar_cloud& cloud() const { return *cloud_; }
@@ -167,6 +177,7 @@ class cell_surfaces {
     spatial_index& index_;
     surface_type& surface_;
     cells cells_;
+    union_find curved_;                   // of regions
     std::optional<scratch_graph> graph_;  // the nearest neighbors first, then others
     std::optional<first_neighbors<scratch_graph>> near_;  // the nearest of these
     std::optional<planar_cloud> cloud_;

@@ -151,7 +151,7 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 result_.memory.parts.assign(found->labels());
-                merge(found->index(), found->cloud(), labels,
+                merge(found->index(), found->cloud(), labels, found->curved(),
                       [&](point_index c) { return found->point_of(c); });
             });
     }
@@ -186,23 +186,24 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 const planar_cloud cloud(*given_, result_.noise.of_planes, run_, true);
-                merge(*given_, cloud, labels, std::identity());
+                merge(*given_, cloud, labels, union_find(), std::identity());
             });
     }
 
-    /// Merges the segments in memory, of things that are cells or kept points, where the noise
-    /// along the rays is known.
-    /// @param cloud     of these
+    /// Merges the segments in memory, where the noise along the rays is known.
+    /// @param things, cloud  cells or kept points
     /// @param labels    the segments of the kept points
+    /// @param together  the sets of segments that are one in any case
     /// @param point_of  point_of(thing): the number of a kept point of it
     void merge(const spatial_index& things, const planar_cloud& cloud,
-               scratch<std::int32_t>& labels, auto&& point_of) {
+               scratch<std::int32_t>& labels, union_find together, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
         const visibility visible(points_, with_noise(chain_.visibility, noise), run_, projection_);
         union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
                                       with_noise(chain_.merging, noise), run_,
                                       [&](const examined_gap& gap) { note(gap, point_of); });
+        sets.unite_as(together);
         unite_labels(labels, sets);
         set_segments(result_.surfaces, labels);
     }

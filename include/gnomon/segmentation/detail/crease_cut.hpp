@@ -40,8 +40,7 @@ template <class Cloud>
                                               const auto& regions, std::size_t first,
                                               std::size_t second, std::size_t min_points) {
     const auto &a = regions[first], &b = regions[second];
-    constexpr angle most = degrees(30);  // numerical: at more, noise hides the edge alone
-    if (!are_at_crease(a, b) || are_turned(a, b, most)) return std::nullopt;
+    if (!are_at_crease(a, b) || are_turned(a, b, widest_crease)) return std::nullopt;
     const Eigen::Vector3d& n = a.fit.plane.normal;
     const Eigen::Vector3d& m = b.fit.plane.normal;
     const double cosine = dot(n, m), turn = cosine < 0.0 ? -1.0 : 1.0;

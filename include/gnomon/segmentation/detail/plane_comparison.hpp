@@ -44,6 +44,9 @@ namespace gnomon::detail {
     return beyond > most_deviations * std::sqrt(tilt_variance(a, axis) + tilt_variance(b, axis));
 }
 
+/// Planes that meet at more do so at an edge, which is as sharp as the noise lets it be seen.
+inline constexpr angle widest_crease = degrees(30);  // numerical
+
 /// Whether two planes certainly meet at an edge, even of a surface that is rough.
 [[nodiscard]] bool are_at_edge(const auto& a, const auto& b) {
     // By less, rough surfaces are several planes; chosen on furnished rooms 20,001 to 20,012 and

@@ -15,6 +15,7 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/segmentation/detail/parabola_test.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 
 namespace gnomon::detail {
@@ -70,38 +71,15 @@ class strips {
                       2.0 * width_ / static_cast<double>(count), members);
     }
 
-    /// Whether a surface that is curved along the strips, a parabola, explains their means better
-    /// than the two planes of a cut: the residuals of either are compared, where the parabola is
-    /// fit by making its terms orthogonal one after the other.
+    /// Whether a surface that is curved along the strips explains their means better than the two
+    /// planes of a cut.
     [[nodiscard]] bool is_curved(std::size_t cut) const {
         const auto [a, b] = sides_of(cut);
         plane_sums all = a.sums;
         all.add(b.sums);
-        const region_plane whole = all.fit();
-        const Eigen::Vector3d across = cross(whole.plane.normal, along_);
-        std::array<double, count> height{}, one{}, square{}, first{}, second{};
-        double of_planes = 0.0;
-        for (std::size_t s = 0; s < count; ++s) {
-            if (sums_[s].count == 0) continue;
-            const Eigen::Vector3d mean = sums_[s].positions.mean();
-            const Eigen::Vector3d offset = difference(mean, whole.centroid);
-            const double off = (s < cut ? a : b).fit.plane.signed_distance(mean);
-            of_planes += sums_[s].positions.weight * off * off;
-            one[s] = 1.0;
-            first[s] = dot(along_, offset);
-            second[s] = dot(across, offset);
-            square[s] = first[s] * first[s];
-            height[s] = whole.plane.signed_distance(mean);
-        }
-        remove(one, first);
-        remove(one, second);
-        remove(first, second);
-        for (const auto* of_plane : {&one, &first, &second}) {
-            remove(*of_plane, square);
-            remove(*of_plane, height);
-        }
-        remove(square, height);
-        return of_planes > product(height, height);
+        parabola_test<count, curved_terms::parabola> test(all, along_);
+        for (std::size_t s = 0; s < count; ++s) test.add(sums_[s], (s < cut ? a : b).fit.plane);
+        return test.is_curved();
     }
 
   private:
@@ -116,21 +94,6 @@ class strips {
         for (std::size_t s = 0; s < count; ++s) sides[s < cut ? 0 : 1].sums.add(sums_[s]);
         for (planar_region& side : sides) side.fit = side.sums.fit();
         return sides;
-    }
-
-    /// Of values of the strips, weighted.
-    [[nodiscard]] double product(const auto& a, const auto& b) const {
-        double sum = 0.0;
-        for (std::size_t s = 0; s < count; ++s) sum += sums_[s].positions.weight * a[s] * b[s];
-        return sum;
-    }
-
-    /// Makes values orthogonal to others.
-    void remove(const auto& others, auto& from) const {
-        const double squared = product(others, others);
-        if (!(squared > 0.0)) return;
-        const double part = product(others, from) / squared;
-        for (std::size_t s = 0; s < count; ++s) from[s] -= part * others[s];
     }
 
     const Cloud* cloud_;

@@ -10,11 +10,14 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Core>
+
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/detail/greenery.hpp>
 #include <gnomon/simulation/detail/house.hpp>
+#include <gnomon/simulation/detail/mesh_builder.hpp>
 #include <gnomon/simulation/detail/object_builder.hpp>
 #include <gnomon/simulation/plane_patch.hpp>
 #include <gnomon/simulation/pose.hpp>
@@ -27,16 +30,18 @@ namespace gnomon::simulation::detail {
 /// length. The numbers of objects begin with 1 for each kind.
 class street_builder {
   public:
-    street_builder(double length, double kerb, bool plain, std::uint64_t seed)
+    street_builder(double length, double kerb, double crown, bool plain, std::uint64_t seed)
         : random_(seed),
           plain_(plain),
           end_(0.5 * length),
           kerb_(kerb),
+          crown_(crown),
           lane_(random_.uniform(3.0, 3.4)),
           road_(lane_ + random_.uniform(2.4, 2.8)),
           front_(road_ + random_.uniform(2.8, 3.8)) {
-        world_.sensor = at(0.0, -0.5 * lane_, random_.uniform(1.7, 2.0));
-        world_.add_object("road", plane_patch{length, 2.0 * road_});
+        const double above = random_.uniform(1.7, 2.0);
+        world_.sensor = at(0.0, -0.5 * lane_, height(0.5 * lane_) + above);
+        add_road();
         for (const auto& [name, turned] : {std::pair{"left", 0.0}, std::pair{"right", 180.0}}) {
             side_ = yaw(degrees(turned));
             add_ground(name);
@@ -51,7 +56,7 @@ class street_builder {
     void add_own_car() {
         const vehicle car;
         const double roof = 0.5 * (car.boot + car.rear_window - car.bonnet - car.windscreen);
-        add(world_, "own car", car, at(-roof, world_.sensor.position.y(), 0.0));
+        add(world_, "own car", car, at(-roof, -0.5 * lane_, height(0.5 * lane_)));
     }
 
     [[nodiscard]] const scene& world() const { return world_; }
@@ -60,6 +65,28 @@ class street_builder {
     /// "tree 3"
     [[nodiscard]] std::string next(const std::string& kind) {
         return numbered(kind, ++count_[kind]);
+    }
+
+    /// How high the road is at a distance from its middle [m]: a parabola.
+    [[nodiscard]] double height(double y) const { return crown_ * (1.0 - y * y / (road_ * road_)); }
+
+    void add_road() {
+        if (crown_ == 0.0) {
+            world_.add_object("road", plane_patch{2.0 * end_, 2.0 * road_});
+            return;
+        }
+        constexpr int strips = 32;  // numerical: each is within .1 mm of the parabola
+        mesh_builder road;
+        road.surface("plane");
+        for (int s = 0; s < strips; ++s) {
+            const double right = road_ * (2.0 * s / strips - 1.0);
+            const double left = right + road_ * 2.0 / strips;
+            road.face({Eigen::Vector3d(-end_, right, height(right)),
+                       Eigen::Vector3d(end_, right, height(right)),
+                       Eigen::Vector3d(end_, left, height(left)),
+                       Eigen::Vector3d(-end_, left, height(left))});
+        }
+        world_.add_object("road", road.mesh());
     }
 
     /// The pavement reaches below the houses and to the gaps between them.
@@ -139,7 +166,7 @@ class street_builder {
     /// A car or a van of random size, at a place of the side, along -x.
     void add_vehicle(const vehicle& v, const std::string& kind, double x, double y) {
         const angle turned = degrees(180.0 + random_.uniform(-1.5, 1.5));
-        const pose place = side_ * at(x, y, 0.0) * yaw(turned);
+        const pose place = side_ * at(x, y, height(y)) * yaw(turned);
         if (plain_) {
             object_builder(world_, next(kind), place)
                 .part("body")
@@ -185,6 +212,7 @@ class street_builder {
     bool plain_;    ///< whether houses have no openings, and vehicles are boxes
     double end_;    ///< half the length of the street [m]
     double kerb_;   ///< height of the pavements [m]
+    double crown_;  ///< height of the middle of the road [m]
     double lane_;   ///< width of a lane [m]
     double road_;   ///< half the width of the road, from kerb to kerb [m]
     double front_;  ///< the end of the pavement, from the middle of the road [m]

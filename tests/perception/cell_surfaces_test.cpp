@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/range_noise.hpp>
+#include <gnomon/core/scan.hpp>
+#include <gnomon/perception/perception.hpp>
+
+namespace {
+
+/// A ground of 16 by 8 m, seen by a level sensor 1.8 m above its middle, with noise of 1 cm.
+gnomon::scan ground(const std::function<double(double)>& height) {
+    constexpr double sigma = 0.01;
+    const Eigen::Vector3d sensor(0.0, 0.0, 1.8);
+    gnomon::scan scan;
+    scan.viewpoints = sensor;
+    gnomon::random_stream random(1);
+    while (scan.points.size() < 20'000) {
+        // As dense per angle as a scanner is, in the azimuth and in the elevation.
+        const double azimuth = random.uniform(0.0, 2.0 * std::numbers::pi);
+        const double range = 1.8 / std::tan(random.uniform(0.15, 1.2));
+        const double x = range * std::cos(azimuth), y = range * std::sin(azimuth);
+        if (std::abs(x) > 8.0 || std::abs(y) > 4.0) continue;
+        const Eigen::Vector3d at(x, y, height(y));
+        scan.points.push_back(at + sigma * random.gaussian() * (at - sensor).normalized());
+    }
+    return scan;
+}
+
+double share_of_largest(const gnomon::segments& surfaces, const gnomon::scan& scan) {
+    return static_cast<double>(surfaces[0].size()) / static_cast<double>(scan.points.size());
+}
+
+/// A road that is 10 cm higher in the middle is one surface, before and after merging; two that
+/// meet at a crease are two.
+TEST(cell_surfaces, are_whole_where_they_are_curved) {
+    const gnomon::perception<> chain{.noise = gnomon::constant_noise{0.01}};
+    const auto road = ground([](double y) { return 0.1 * (1.0 - y * y / 16.0); });
+    const auto seen = chain(road);
+    EXPECT_GT(share_of_largest(seen.surfaces, road), 0.97);
+    EXPECT_GT(share_of_largest(seen.initial_segments, road), 0.97);
+    EXPECT_EQ(chain(road, gnomon::threads{3}).surfaces, seen.surfaces);
+
+    const auto roof = ground([](double y) { return -0.1 * std::abs(y); });
+    EXPECT_LT(share_of_largest(chain(roof).surfaces, roof), 0.6);
+}
+
+}  // namespace
