@@ -16,7 +16,7 @@
 namespace {
 
 /// A ground of 16 by 8 m, seen by a level sensor 1.8 m above its middle, with noise of 1 cm.
-gnomon::scan ground(const std::function<double(double)>& height) {
+gnomon::scan seen_ground(const std::function<double(double)>& height) {
     constexpr double sigma = 0.01;
     const Eigen::Vector3d sensor(0.0, 0.0, 1.8);
     gnomon::scan scan;
@@ -42,13 +42,13 @@ double share_of_largest(const gnomon::segments& surfaces, const gnomon::scan& sc
 /// meet at a crease are two.
 TEST(cell_surfaces, are_whole_where_they_are_curved) {
     const gnomon::perception<> chain{.noise = gnomon::constant_noise{0.01}};
-    const auto road = ground([](double y) { return 0.1 * (1.0 - y * y / 16.0); });
+    const auto road = seen_ground([](double y) { return 0.1 * (1.0 - y * y / 16.0); });
     const auto seen = chain(road);
     EXPECT_GT(share_of_largest(seen.surfaces, road), 0.97);
     EXPECT_GT(share_of_largest(seen.initial_segments, road), 0.97);
     EXPECT_EQ(chain(road, gnomon::threads{3}).surfaces, seen.surfaces);
 
-    const auto roof = ground([](double y) { return -0.1 * std::abs(y); });
+    const auto roof = seen_ground([](double y) { return -0.1 * std::abs(y); });
     EXPECT_LT(share_of_largest(chain(roof).surfaces, roof), 0.6);
 }
 

@@ -23,15 +23,15 @@ namespace {
 
 using gnomon::point_index;
 
-constexpr double sigma = 0.02;  // [m]
-const Eigen::Vector3d sensor(0.0, 0.0, 3.0);
+constexpr double ground_noise = 0.02;  // [m]
+const Eigen::Vector3d above_ground(0.0, 0.0, 3.0);
 
 /// A ground of 20 by 8 m with noise along the rays, and its two halves as regions.
 class halves {
   public:
     explicit halves(const std::function<double(double, double)>& height, std::uint64_t seed = 1)
         : index_(scan_of(height, seed)),
-          cloud_(index_, gnomon::constant_noise{sigma}, gnomon::sequential{}),
+          cloud_(index_, gnomon::constant_noise{ground_noise}, gnomon::sequential{}),
           labels_(index_.size()) {
         regions_.resize(2);
         for (std::size_t i = 0; i < index_.size(); ++i) {
@@ -59,11 +59,12 @@ class halves {
                                 std::uint64_t seed) {
         gnomon::random_stream random(seed);
         gnomon::scan scan;
-        scan.viewpoints = sensor;
+        scan.viewpoints = above_ground;
         for (int i = 0; i < 4000; ++i) {
             const double x = random.uniform(-10.0, 10.0), y = random.uniform(-4.0, 4.0);
             const Eigen::Vector3d at(x, y, height(x, y));
-            scan.points.push_back(at + sigma * random.gaussian() * (at - sensor).normalized());
+            scan.points.push_back(at + ground_noise * random.gaussian() *
+                                           (at - above_ground).normalized());
         }
         return scan;
     }
@@ -107,7 +108,7 @@ TEST(curved_pieces, survive_flat_and_thin_regions) {
     EXPECT_FALSE(halves([](double, double) { return 0.0; }).are_one());
     gnomon::detail::planar_region a, b;
     const gnomon::spatial_index empty(std::vector<Eigen::Vector3d>{});
-    const gnomon::detail::planar_cloud none(empty, gnomon::constant_noise{sigma},
+    const gnomon::detail::planar_cloud none(empty, gnomon::constant_noise{ground_noise},
                                             gnomon::sequential{});
     EXPECT_FALSE(gnomon::detail::are_of_curved_surface(none, a, {}, b, {}));
 }
