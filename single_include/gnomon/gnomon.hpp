@@ -9451,7 +9451,7 @@ inline constexpr double largest_variance = 0.25 * std::numbers::pi * std::number
 /// on furnished and convex rooms 20,001 to 20,010 and 30,001 to 30,010: of 15 to 30 mm of noise,
 /// .02 % of the good normals of `plane_pca` are off by more than 40 degrees, at most .09 % in one
 /// setting; at 0.1 rad^2 these are .03 and .14 %, at 0.08 a twentieth of the normals more is weak.)
-inline constexpr double vague_trace = 0.09;
+inline constexpr double vague_trace = 0.09;  // [rad^2]; source: above
 
 /// A ray is grazing if the cosine between ray and normal is below this (88.9 degrees): its range is
 /// then so sensitive to the normal that a linear error model does not hold. (A cosine, without a
@@ -29495,9 +29495,9 @@ class cell_surfaces {
         unite_labels(of_points, curved_);
         return of_points;
     }
-    /// The sets of regions that are pieces of one curved surface, after labels_of_points(). Gives
-    /// them away.
-    [[nodiscard]] union_find curved() { return std::move(curved_); }
+    /// Gives away the sets of regions that are pieces of one curved surface, those of the last
+    /// labels_of_points().
+    [[nodiscard]] union_find take_curved() { return std::move(curved_); }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
     [[nodiscard]] const planar_cloud& cloud() const { return *cloud_; }
@@ -29744,7 +29744,7 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 result_.memory.parts.assign(found->labels());
-                merge(found->index(), found->cloud(), labels, found->curved(),
+                merge(found->index(), found->cloud(), labels, found->take_curved(),
                       [&](point_index c) { return found->point_of(c); });
             });
     }
@@ -34665,7 +34665,7 @@ struct house {
     int storeys = 2;       ///< rows of windows
     int bays = 4;          ///< columns of windows
     int door = 1;          ///< number of the bay of the door, from 0
-    bool openings = true;  ///< whether there are windows and a door
+    bool openings = true;  ///< without them the facade is a rectangle
     double window_width = 1.2;
     double sill = 0.9;    ///< height of the lower edge of a window above its storey
     double lintel = 2.3;  ///< height of the upper edge of windows and door above their storey
@@ -34960,7 +34960,7 @@ class street_builder {
             world_.add_object("road", plane_patch{2.0 * end_, 2.0 * road_});
             return;
         }
-        constexpr int strips = 32;  // numerical: each is within .1 mm of the parabola
+        constexpr int strips = 32;  // numerical: .1 mm from a parabola of 10 cm
         mesh_builder road;
         road.surface("plane");
         for (int s = 0; s < strips; ++s) {
@@ -35094,7 +35094,7 @@ class street_builder {
 
     scene world_;
     random_stream random_;
-    bool plain_;    ///< whether houses have no openings, and vehicles are boxes
+    bool plain_;    ///< facades are rectangles, and vehicles are boxes
     double end_;    ///< half the length of the street [m]
     double kerb_;   ///< height of the pavements [m]
     double crown_;  ///< height of the middle of the road [m]
@@ -35120,7 +35120,7 @@ struct street_options {
     double length = 120.0;  ///< along x, with the sensor in the middle [m]
     double kerb = 0.12;     ///< height of the pavements above the sides of the road [m]
     double crown = 0.0;     ///< height of the middle of the road above its sides [m]
-    bool plain = false;     ///< houses without windows and doors; vehicles are boxes
+    bool plain = false;     ///< facades are rectangles, and vehicles are boxes
     bool own_car = false;   ///< a car below the sensor, which stands where the street's sensor is
     std::uint64_t seed = 1;
 };
@@ -35147,8 +35147,7 @@ struct street_options {
 /// The wall of a facade is one surface without its recesses, which are 0.10 to 0.20 m deep. The
 /// kerb is the upright step only; its upper side belongs to the pavement.
 /// @throws std::invalid_argument  unless the length is from 20 to 1,000 m, the kerb from 0.01 to
-/// 0.5
-///                                m high, and the crown of the road from 0 to 0.5 m
+///                                0.5 m high and the crown of the road from 0 to 0.5 m
 [[nodiscard]] inline scene street(const street_options& options = {}) {
     gnomon::detail::require(options.length >= 20.0 && options.length <= 1000.0,
                             "street: the length must be from 20 to 1,000 m");

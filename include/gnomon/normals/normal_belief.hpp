@@ -60,7 +60,7 @@ inline constexpr double largest_variance = 0.25 * std::numbers::pi * std::number
 /// on furnished and convex rooms 20,001 to 20,010 and 30,001 to 30,010: of 15 to 30 mm of noise,
 /// .02 % of the good normals of `plane_pca` are off by more than 40 degrees, at most .09 % in one
 /// setting; at 0.1 rad^2 these are .03 and .14 %, at 0.08 a twentieth of the normals more is weak.)
-inline constexpr double vague_trace = 0.09;
+inline constexpr double vague_trace = 0.09;  // [rad^2]; source: above
 
 /// A ray is grazing if the cosine between ray and normal is below this (88.9 degrees): its range is
 /// then so sensitive to the normal that a linear error model does not hold. (A cosine, without a

@@ -17,7 +17,7 @@ struct street_options {
     double length = 120.0;  ///< along x, with the sensor in the middle [m]
     double kerb = 0.12;     ///< height of the pavements above the sides of the road [m]
     double crown = 0.0;     ///< height of the middle of the road above its sides [m]
-    bool plain = false;     ///< houses without windows and doors; vehicles are boxes
+    bool plain = false;     ///< facades are rectangles, and vehicles are boxes
     bool own_car = false;   ///< a car below the sensor, which stands where the street's sensor is
     std::uint64_t seed = 1;
 };
@@ -44,8 +44,7 @@ struct street_options {
 /// The wall of a facade is one surface without its recesses, which are 0.10 to 0.20 m deep. The
 /// kerb is the upright step only; its upper side belongs to the pavement.
 /// @throws std::invalid_argument  unless the length is from 20 to 1,000 m, the kerb from 0.01 to
-/// 0.5
-///                                m high, and the crown of the road from 0 to 0.5 m
+///                                0.5 m high and the crown of the road from 0 to 0.5 m
 [[nodiscard]] inline scene street(const street_options& options = {}) {
     gnomon::detail::require(options.length >= 20.0 && options.length <= 1000.0,
                             "street: the length must be from 20 to 1,000 m");

@@ -152,9 +152,9 @@ class cell_surfaces {
         unite_labels(of_points, curved_);
         return of_points;
     }
-    /// The sets of regions that are pieces of one curved surface, after labels_of_points(). Gives
-    /// them away.
-    [[nodiscard]] union_find curved() { return std::move(curved_); }
+    /// Gives away the sets of regions that are pieces of one curved surface, those of the last
+    /// labels_of_points().
+    [[nodiscard]] union_find take_curved() { return std::move(curved_); }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
     [[nodiscard]] const planar_cloud& cloud() const { return *cloud_; }

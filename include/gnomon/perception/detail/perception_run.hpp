@@ -151,7 +151,7 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 result_.memory.parts.assign(found->labels());
-                merge(found->index(), found->cloud(), labels, found->curved(),
+                merge(found->index(), found->cloud(), labels, found->take_curved(),
                       [&](point_index c) { return found->point_of(c); });
             });
     }

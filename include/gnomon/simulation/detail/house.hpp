@@ -30,7 +30,7 @@ struct house {
     int storeys = 2;       ///< rows of windows
     int bays = 4;          ///< columns of windows
     int door = 1;          ///< number of the bay of the door, from 0
-    bool openings = true;  ///< whether there are windows and a door
+    bool openings = true;  ///< without them the facade is a rectangle
     double window_width = 1.2;
     double sill = 0.9;    ///< height of the lower edge of a window above its storey
     double lintel = 2.3;  ///< height of the upper edge of windows and door above their storey

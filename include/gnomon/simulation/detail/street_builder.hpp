@@ -75,7 +75,7 @@ class street_builder {
             world_.add_object("road", plane_patch{2.0 * end_, 2.0 * road_});
             return;
         }
-        constexpr int strips = 32;  // numerical: each is within .1 mm of the parabola
+        constexpr int strips = 32;  // numerical: .1 mm from a parabola of 10 cm
         mesh_builder road;
         road.surface("plane");
         for (int s = 0; s < strips; ++s) {
@@ -209,7 +209,7 @@ class street_builder {
 
     scene world_;
     random_stream random_;
-    bool plain_;    ///< whether houses have no openings, and vehicles are boxes
+    bool plain_;    ///< facades are rectangles, and vehicles are boxes
     double end_;    ///< half the length of the street [m]
     double kerb_;   ///< height of the pavements [m]
     double crown_;  ///< height of the middle of the road [m]
