@@ -13527,6 +13527,12 @@ class union_find {
 
     /// The number n of elements.
     [[nodiscard]] std::size_t size() const { return size_; }
+    /// Whether no elements are united. O(n).
+    [[nodiscard]] bool is_of_singletons() const {
+        for (std::size_t i = 0; i < size_; ++i)
+            if (load(static_cast<point_index>(i)) != i) return false;
+        return true;
+    }
 
     /// Returns the smallest element of the set of i; while other threads unite, some element of
     /// that set. O(log n) amortised. Precondition: i < n.
@@ -15581,24 +15587,64 @@ inline constexpr angle widest_crease = degrees(30);  // numerical
     return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
 }
 
+/// Whether the plane of a region is nearly that of a larger whole.
+[[nodiscard]] bool is_nearly_parallel(const auto& fit, const region_plane& whole) {
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    return std::abs(dot(fit.plane.normal, whole.plane.normal)) >= min_cosine(max_angle);
+}
+
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two
 /// regressions (Chow 1960); at most 1 if they may be merged. Almost any plane explains a region
 /// that is hardly wider than its noise: its own must be nearly parallel to that of both.
 [[nodiscard]] double dissimilarity_of_apart(const auto& a, const auto& b) {
-    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
-    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
-    const double nearly = min_cosine(max_angle);
+    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
     const region_plane both = plane_of_both(a, b);
     const auto statistic = [&](const auto& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
         return static_cast<double>(r.sums.count) * worse / r.fit.excess();
     };
-    const auto is_parallel = [&](const auto& r) {
-        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
-    };
-    if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
+    if (!both.is_determined || !is_nearly_parallel(a.fit, both) || !is_nearly_parallel(b.fit, both))
         return std::numeric_limits<double>::infinity();
     return (statistic(a) + statistic(b)) / chi2_of_3;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/orthogonal_terms.hpp ----------------------------------------
+
+/// @file
+/// A surface of a few terms of the coordinates, such as a parabola, fit to heights by weighted
+/// least squares: its terms are made orthogonal one after the other (modified Gram-Schmidt), which
+/// needs no system of equations, and survives terms that the places do not determine.
+
+namespace gnomon::detail {
+
+/// The sum of the weighted products of two sequences of numbers.
+[[nodiscard]] double weighted_product(const auto& weights, const auto& a, const auto& b) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < weights.size(); ++p) sum += weights[p] * a[p] * b[p];
+    return sum;
+}
+
+/// Leaves of a sequence what is orthogonal to another one.
+void make_orthogonal(const auto& weights, const auto& other, auto& from) {
+    const double squared = weighted_product(weights, other, other);
+    if (!(squared > 0.0)) return;
+    const double share = weighted_product(weights, other, from) / squared;
+    for (std::size_t p = 0; p < weights.size(); ++p) from[p] -= share * other[p];
+}
+
+/// Leaves of the heights of some places what the sum of terms that fits them best does not explain.
+/// Places of no weight do not count for the fit; their heights become those over it.
+/// @param terms    for each term its values at the places, which become orthogonal
+/// @param heights  of the places
+template <class Values, std::size_t count>
+void remove_terms(const auto& weights, std::array<Values, count>& terms, auto& heights) {
+    for (std::size_t t = 0; t < count; ++t) {
+        for (std::size_t before = 0; before < t; ++before)
+            make_orthogonal(weights, terms[before], terms[t]);
+        make_orthogonal(weights, terms[t], heights);
+    }
 }
 
 }  // namespace gnomon::detail
@@ -15606,19 +15652,13 @@ inline constexpr angle widest_crease = degrees(30);  // numerical
 // -------- gnomon/segmentation/detail/parabola_test.hpp -------------------------------------------
 
 /// @file
-/// Whether a curved surface explains the means of parts of a region better than planes do: a
-/// parabola along one direction, or a paraboloid. Their weighted squared residuals are compared.
+/// Whether a surface that is curved along one direction explains the means of parts of a region
+/// better than planes do. Their weighted squared residuals are compared.
 
 namespace gnomon::detail {
 
-/// The terms of a height over a plane with the coordinates x and y: 1, x, y, x^2, then x y, y^2.
-enum class curved_terms : std::size_t {
-    parabola = 4,   // formula
-    paraboloid = 6  // formula
-};
-
 /// The comparison for at most `count` parts.
-template <std::size_t count, curved_terms which>
+template <std::size_t count>
 class parabola_test {
   public:
     /// @param all    the sums of all parts
@@ -15633,7 +15673,7 @@ class parabola_test {
         const Eigen::Vector3d mean = part.positions.mean();
         const Eigen::Vector3d offset = difference(mean, whole_.centroid);
         const double x = dot(along_, offset), y = dot(across_, offset);
-        const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
+        const std::array<double, 4> at{1.0, x, y, x * x};
         for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t][size_] = at[t];
         height_[size_] = whole_.plane.signed_distance(mean);
         weight_[size_] = part.positions.weight;
@@ -15642,38 +15682,21 @@ class parabola_test {
         ++size_;
     }
 
-    /// The surface is fit by making its terms orthogonal one after the other. To be called once.
+    /// To be called once.
     [[nodiscard]] bool is_curved() {
-        for (std::size_t t = 0; t < terms_.size(); ++t) {
-            for (std::size_t before = 0; before < t; ++before) remove(terms_[before], terms_[t]);
-            remove(terms_[t], height_);
-        }
-        return of_planes_ > product(height_, height_);
+        remove_terms(weight_, terms_, height_);
+        return of_planes_ > weighted_product(weight_, height_, height_);
     }
 
   private:
     using values = std::array<double, count>;  // of the parts
 
-    [[nodiscard]] double product(const values& a, const values& b) const {
-        double sum = 0.0;
-        for (std::size_t p = 0; p < size_; ++p) sum += weight_[p] * a[p] * b[p];
-        return sum;
-    }
-
-    /// Makes values orthogonal to others.
-    void remove(const values& others, values& from) const {
-        const double squared = product(others, others);
-        if (!(squared > 0.0)) return;
-        const double share = product(others, from) / squared;
-        for (std::size_t p = 0; p < size_; ++p) from[p] -= share * others[p];
-    }
-
     region_plane whole_;
     Eigen::Vector3d along_, across_;
     std::size_t size_ = 0;
     double of_planes_ = 0.0;
-    std::array<values, static_cast<std::size_t>(which)> terms_{};
-    values height_{}, weight_{};
+    std::array<values, 4> terms_{};  // formula: 1, x, y, x^2
+    values height_{}, weight_{};     // of no weight beyond the parts that were added
 };
 
 }  // namespace gnomon::detail
@@ -15743,7 +15766,7 @@ class strips {
         const auto [a, b] = sides_of(cut);
         plane_sums all = a.sums;
         all.add(b.sums);
-        parabola_test<count, curved_terms::parabola> test(all, along_);
+        parabola_test<count> test(all, along_);
         for (std::size_t s = 0; s < count; ++s) test.add(sums_[s], (s < cut ? a : b).fit.plane);
         return test.is_curved();
     }
@@ -15886,6 +15909,57 @@ template <class Cloud>
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/separate_parts.hpp ------------------------------------------
+
+/// @file
+/// The parts of labeled regions that no neighbors connect: planes that meet nowhere may be the same
+/// by chance, such as the middle of a road and a pavement beyond its lower side. Whether they are
+/// one surface is for merging to decide, by what was seen between them.
+
+namespace gnomon::detail {
+
+/// Gives labels of their own to the parts of regions that no neighbors connect. The largest part
+/// keeps the label of its region, and so do parts of fewer than `min_points`. O(n (k + log n)) for
+/// k neighbors.
+/// @param graph   the neighbors of each point; of two points one may be a neighbor of the other
+///                alone
+/// @param labels  contiguous, from 0, or `unlabeled`
+/// @return whether there are new labels
+template <neighborhood_graph G, execution X>
+[[nodiscard]] bool separate_parts(const G& graph, scratch<std::int32_t>& labels,
+                                  std::size_t min_points, const X& run) {
+    union_find connected(labels.size());
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (labels[i] == unlabeled) continue;
+            for (const point_index j : graph[i])
+                if (labels[j] == labels[i]) connected.unite(static_cast<point_index>(i), j);
+        }
+    });
+    scratch<std::int32_t> part_of(labels.size(), unlabeled);
+    std::int32_t next = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] == unlabeled) continue;
+        part_of[i] = static_cast<std::int32_t>(connected.find(static_cast<point_index>(i)));
+        next = std::max(next, labels[i] + 1);
+    }
+    number_by_size(part_of, min_points);
+    const label_groups parts(part_of);  // the largest first
+    scratch<char> has_part(static_cast<std::size_t>(next), false);
+    const std::int32_t first_new = next;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        char& has = has_part[static_cast<std::size_t>(labels[parts[p].front()])];
+        if (has != 0) {
+            for (const point_index i : parts[p]) labels[i] = next;
+            ++next;
+        }
+        has = true;
+    }
+    return next > first_new;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/detail/step_cut.hpp ------------------------------------------------
 
 /// @file
@@ -15934,7 +16008,7 @@ template <class Cloud>
 
 /// @file
 /// A labeling of a cloud by planes: their growth, the merging of neighbors, the competition for
-/// points, and cuts at edges, in turns.
+/// points, and cuts at edges, in turns; at last their parts that are apart are separated.
 
 namespace gnomon::detail {
 
@@ -15990,6 +16064,14 @@ class plane_regions {
             const bool has_cut = cut(run, cut_of);
             if (!move_to_creases(run) && !has_cut) return;
         }
+    }
+
+    /// Makes regions of the parts of regions that no neighbors connect.
+    template <execution X>
+    void separate(const X& run) {
+        if (!separate_parts(graph_, labels_, min_points_, run)) return;
+        refit();
+        compact();
     }
 
   private:
@@ -16160,8 +16242,9 @@ class plane_regions {
 /// Where the noise is independent from point to point, planes that meet at an angle of only 3
 /// degrees are cut apart in the end, and planes with a step between them of more than a standard
 /// deviation and 1 cm. It is taken to be so where view points are known and the rays are not all
-/// within 45 degrees of one axis, as those of a depth camera. All lengths follow from the noise and
-/// a flatness of 2 mm, so that no distance need be set.
+/// within 45 degrees of one axis, as those of a depth camera. At last, parts of a plane that no
+/// neighbors connect become segments of their own, if they are large enough. All lengths follow
+/// from the noise and a flatness of 2 mm, so that no distance need be set.
 
 namespace gnomon {
 
@@ -16194,6 +16277,7 @@ template <neighborhood_graph G, neighborhood_graph Near, normal_range S, executi
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
     regions.cut_edges(run);
     if (noise_is_independent) regions.cut_creases(run);
+    regions.separate(run);
     return regions;
 }
 
@@ -17415,10 +17499,11 @@ class visibility {
 
 }  // namespace gnomon
 
-// -------- gnomon/occlusion/detail/occlusion_merger.hpp -------------------------------------------
+// -------- gnomon/occlusion/detail/examined_gap.hpp -----------------------------------------------
 
 /// @file
-/// Which segments merge_occluded compares, and which gaps between them it closes.
+/// The gap between two segments: what was seen along lines across it, and whether that is evidence
+/// for one surface.
 
 namespace gnomon::detail {
 
@@ -17427,8 +17512,57 @@ struct examined_gap {
     region_pair sides;
     scratch<boundary_pair> lines;
     observation_count seen = {};
-    bool merged = false;
+    bool is_closed = false;  ///< by what was seen
+    bool merged = false;     ///< both sides are one segment at the end
 };
+
+/// A segment next to a gap: its number and its points, some, all finite.
+struct gap_side {
+    point_index number;
+    std::span<const point_index> points;
+
+    [[nodiscard]] Eigen::Vector3d centroid(const spatial_index& of) const {
+        Eigen::Vector3d sum(0.0, 0.0, 0.0);
+        const Eigen::Vector3d first = of[points.front()];
+        for (const point_index i : points) sum = combined(1.0, sum, 1.0, difference(of[i], first));
+        return combined(1.0, first, 1.0 / static_cast<double>(points.size()), sum);
+    }
+};
+
+/// Examines the gap between two segments. It is closed if it is narrow, or the policy accepts most
+/// of the lines across it; unless one of them alone keeps it open.
+/// @param options  `merge_occluded_options`, which are valid
+/// Complexity: O(points of both * boundary pairs), and O(view points) for each pixel of the lines.
+template <merge_policy M>
+[[nodiscard]] examined_gap gap_between(const gap_side& a, const gap_side& b,
+                                       const spatial_index& points, const visibility& visible,
+                                       const M& policy, const auto& options) {
+    examined_gap gap{{a.number, b.number}, {}};
+    append_boundary_pairs(gap.lines, points, a.points, b.points,
+                          {a.centroid(points), b.centroid(points)}, options.boundary_pairs);
+    std::size_t accepted = 0;
+    bool is_kept_open = false;
+    for (const boundary_pair& line : gap.lines) {
+        const Eigen::Vector3d v =
+            combined(0.5, points.viewpoints[line.first], 0.5, points.viewpoints[line.second]);
+        const observation_count seen = visible.between(points[line.first], points[line.second], v);
+        gap.seen += seen;
+        is_kept_open = is_kept_open || keeps_open(policy, seen);
+        accepted += accepts(policy, seen) ? 1 : 0;
+    }
+    const bool is_narrow = coplanar_distance(gap.lines) < options.max_gap;
+    gap.is_closed = !is_kept_open && (is_narrow || 2 * accepted > gap.lines.size());
+    return gap;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/occlusion_merger.hpp -------------------------------------------
+
+/// @file
+/// Which segments merge_occluded compares, and which gaps between them it closes.
+
+namespace gnomon::detail {
 
 /// One run of the algorithm.
 /// @tparam Options  `merge_occluded_options`, which are valid
@@ -17529,36 +17663,11 @@ class occlusion_merger {
                (b.sums.count < a.sums.count || is_on(b));
     }
 
-    /// Whether the gap is narrow, or the policy accepts most of the lines across it; unless one of
-    /// them alone keeps it open.
+    /// Whether the gap between two segments is closed.
     [[nodiscard]] bool is_closed(point_index a, point_index b) {
-        examined_gap gap{{a, b}, {}};
-        append_boundary_pairs(gap.lines, points_, members_[a], members_[b],
-                              {centroid(a), centroid(b)}, options_.boundary_pairs);
-        std::size_t accepted = 0;
-        bool is_kept_open = false;
-        for (const boundary_pair& line : gap.lines) {
-            const Eigen::Vector3d v =
-                combined(0.5, points_.viewpoints[line.first], 0.5, points_.viewpoints[line.second]);
-            const observation_count seen =
-                visible_.between(points_[line.first], points_[line.second], v);
-            gap.seen += seen;
-            is_kept_open = is_kept_open || keeps_open(policy_, seen);
-            accepted += accepts(policy_, seen) ? 1 : 0;
-        }
-        const bool is_narrow = coplanar_distance(gap.lines) < options_.max_gap;
-        const bool is_one = !is_kept_open && (is_narrow || 2 * accepted > gap.lines.size());
-        gaps_.push_back(std::move(gap));
-        return is_one;
-    }
-
-    /// Of the points of a segment on its plane, at the beginning of a round [m].
-    [[nodiscard]] Eigen::Vector3d centroid(point_index r) const {
-        Eigen::Vector3d sum(0.0, 0.0, 0.0);
-        const Eigen::Vector3d first = points_[members_[r].front()];
-        for (const point_index i : members_[r])
-            sum = combined(1.0, sum, 1.0, difference(points_[i], first));
-        return combined(1.0, first, 1.0 / static_cast<double>(members_[r].size()), sum);
+        const auto side = [&](point_index r) { return gap_side{r, members_[r]}; };
+        gaps_.push_back(gap_between(side(a), side(b), points_, visible_, policy_, options_));
+        return gaps_.back().is_closed;
     }
 
     const spatial_index& points_;
@@ -29112,6 +29221,378 @@ class stopwatch {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/surface_patch.hpp -------------------------------------------
+
+/// @file
+/// A region, or several that belong to one surface, as the means of their parts: few numbers, from
+/// which follows how well a curved surface explains them, and how well their planes do.
+
+namespace gnomon::detail {
+
+/// Parts of a region along each of its principal axes; numerical: a piece of a curved surface has
+/// several parts across its curve.
+inline constexpr std::size_t parts_along = 8;
+
+/// A grid of parts over the extent of some places.
+class part_grid {
+  public:
+    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
+
+    void enclose(const Eigen::Vector3d& place) {
+        for (std::size_t a = 0; a < 2; ++a) {
+            low_[a] = std::min(low_[a], dot(axes_[a], place));
+            high_[a] = std::max(high_[a], dot(axes_[a], place));
+        }
+    }
+    [[nodiscard]] std::size_t part_of(const Eigen::Vector3d& place) const {
+        return number(0, place) * parts_along + number(1, place);
+    }
+
+  private:
+    [[nodiscard]] std::size_t number(std::size_t a, const Eigen::Vector3d& place) const {
+        const double extent = high_[a] - low_[a];
+        if (!(extent > 0.0)) return 0;
+        constexpr auto parts = static_cast<double>(parts_along);
+        return static_cast<std::size_t>(
+            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
+    }
+
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    std::array<Eigen::Vector3d, 2> axes_;
+    std::array<double, 2> low_{none, none}, high_{-none, -none};
+};
+
+/// A part of a region.
+struct surface_part {
+    Eigen::Vector3d mean;   ///< of its points, from the origin of the cloud [m]
+    double weight;          ///< 1 / variance of the mean across the plane of the region [1 / m^2]
+    double off_plane;       ///< of the mean [m]
+    double reach;           ///< of the noise of a point across the plane: three deviations [m]
+    std::size_t count = 0;  ///< of its points
+};
+
+/// The parts of one region or several.
+struct surface_patch {
+    scratch<surface_part> parts;
+    plane_sums sums;          ///< of all points
+    double excess = 1.0;      ///< the largest of the regions: region_plane::excess
+    std::size_t regions = 0;  ///< planar ones
+
+    void add(const surface_patch& more) {
+        parts.insert(parts.end(), more.parts.begin(), more.parts.end());
+        sums.add(more.sums);
+        excess = std::max(excess, more.excess);
+        regions += more.regions;
+    }
+};
+
+/// The parts of a planar region. O(n)
+/// @param cloud    a planar_cloud
+/// @param members  of the region, all finite
+template <class Cloud>
+[[nodiscard]] surface_patch patch_of(const Cloud& cloud, const planar_region& region,
+                                     std::span<const point_index> members) {
+    const eigen_decomposition principal = symmetric_eigen(region.sums.positions.covariance());
+    part_grid grid(column(principal.vectors, 0), column(principal.vectors, 1));
+    for (const point_index i : members) grid.enclose(cloud.offsets[i]);
+    std::array<plane_sums, parts_along * parts_along> sums{};
+    for (const point_index i : members) cloud.add(i, sums[grid.part_of(cloud.offsets[i])]);
+    surface_patch patch{{}, region.sums, region.fit.excess(), 1};
+    const plane& own = region.fit.plane;
+    for (const plane_sums& part : sums) {
+        if (part.count == 0) continue;
+        const Eigen::Vector3d mean = part.positions.mean();
+        const double variance = part.noise_across(own.normal);  // of the mean
+        const double of_point = static_cast<double>(part.count) * variance * patch.excess;
+        patch.parts.push_back({mean, 1.0 / variance, own.signed_distance(mean),
+                               most_deviations * std::sqrt(of_point), part.count});
+    }
+    return patch;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/curved_pieces.hpp -------------------------------------------
+
+/// @file
+/// Planar pieces of a curved surface: a road that falls to its sides is several planes. Two
+/// regions next to each other belong to one surface if a paraboloid explains both better than their
+/// planes do; at a crease or a step the planes are better. Apart from each other they may do so if
+/// it explains them as well, and one of them is curved by itself.
+
+namespace gnomon::detail {
+
+/// The parts of two patches, and their heights over a paraboloid that fits them.
+class common_paraboloid {
+  public:
+    common_paraboloid(const surface_patch& a, const surface_patch& b)
+        : patches_{&a, &b}, base_(plane_of_both(a, b)) {
+        for (const surface_patch* patch : patches_)
+            for (const surface_part& part : patch->parts) parts_.push_back(&part);
+        for (const surface_part* part : parts_) weights_.push_back(part->weight);
+    }
+
+    /// Whether a plane of both is known, and those of the patches are nearly parallel to it.
+    [[nodiscard]] bool is_determined() const {
+        return base_.is_determined && std::ranges::all_of(patches_, [&](const auto* patch) {
+                   const region_plane own = patch->sums.fit();
+                   return own.is_determined && is_nearly_parallel(own, base_);
+               });
+    }
+
+    /// Whether it explains the parts better than their planes do.
+    [[nodiscard]] bool is_better() const {
+        const scratch<double> heights = heights_over(weights_);
+        double of_planes = 0.0;
+        for (const surface_part* part : parts_)
+            of_planes += part->weight * part->off_plane * part->off_plane;
+        return of_planes > weighted_product(weights_, heights, heights);
+    }
+
+    /// How far the smaller patch is, on average, from the paraboloid of the larger one alone [m];
+    /// of equal ones, the second one counts as smaller.
+    [[nodiscard]] double offset() const {
+        const std::size_t smaller = patches_[1]->sums.count <= patches_[0]->sums.count ? 1 : 0;
+        scratch<double> of_larger = weights_;
+        for (std::size_t p = 0; p < parts_.size(); ++p)
+            if (patch_of(p) == smaller) of_larger[p] = 0.0;
+        const scratch<double> heights = heights_over(of_larger);
+        double sum = 0.0, weight = 0.0;
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            if (patch_of(p) != smaller) continue;
+            sum += weights_[p] * heights[p];
+            weight += weights_[p];
+        }
+        return std::abs(sum / weight);
+    }
+
+    /// How much worse it explains the patches than their planes do: the sum of squared deviations
+    /// of their means, in variances, by which it is worse for either. Parts that the noise of
+    /// points does not explain are left out, as planes reach beyond the border of a surface by
+    /// some; infinite if they are more than an edge of a patch, one row of its parts.
+    [[nodiscard]] double worse() const {
+        scratch<double> weights = weights_;
+        constexpr int most_passes = 50;  // numerical: two or three are enough
+        for (int pass = 0; pass < most_passes; ++pass) {
+            const scratch<double> heights = heights_over(weights);
+            std::array<std::size_t, 2> off{};
+            std::array<double, 2> worse{};
+            bool rests = true;
+            for (std::size_t p = 0; p < parts_.size(); ++p) {
+                const surface_part& part = *parts_[p];
+                const std::size_t patch = patch_of(p);
+                const bool is_on = std::abs(heights[p]) <= part.reach;
+                rests = rests && is_on == (weights[p] > 0.0);
+                weights[p] = is_on ? part.weight : 0.0;
+                if (!is_on) off[patch] += part.count;
+                if (is_on)
+                    worse[patch] +=
+                        part.weight * (heights[p] * heights[p] - part.off_plane * part.off_plane);
+            }
+            for (std::size_t patch = 0; patch < 2; ++patch)
+                if (parts_along * off[patch] > patches_[patch]->sums.count)
+                    return std::numeric_limits<double>::infinity();
+            if (!rests) continue;
+            return std::max(0.0, worse[0]) / patches_[0]->excess +
+                   std::max(0.0, worse[1]) / patches_[1]->excess;
+        }
+        return std::numeric_limits<double>::infinity();
+    }
+
+  private:
+    [[nodiscard]] std::size_t patch_of(std::size_t part) const {
+        return part < patches_[0]->parts.size() ? 0 : 1;
+    }
+
+    /// Of all parts, over the paraboloid that fits them best by these weights.
+    [[nodiscard]] scratch<double> heights_over(const scratch<double>& weights) const {
+        const Eigen::Vector3d along = orthogonal(base_.plane.normal);
+        const Eigen::Vector3d across = cross(base_.plane.normal, along);
+        std::array<scratch<double>, 6> terms;  // formula: 1, x, y, x^2, x y, y^2
+        scratch<double> heights;
+        for (const surface_part* part : parts_) {
+            const Eigen::Vector3d offset = difference(part->mean, base_.centroid);
+            const double x = dot(along, offset), y = dot(across, offset);
+            const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
+            for (std::size_t t = 0; t < at.size(); ++t) terms[t].push_back(at[t]);
+            heights.push_back(dot(base_.plane.normal, offset));
+        }
+        remove_terms(weights, terms, heights);
+        return heights;
+    }
+
+    std::array<const surface_patch*, 2> patches_;
+    region_plane base_;
+    scratch<const surface_part*> parts_;  // of both
+    scratch<double> weights_;
+};
+
+/// Whether two regions next to each other are pieces of one curved surface: their planes are
+/// certainly turned, and not at an edge.
+/// @param a, b          planar_regions
+/// @param of_a, of_b    their patches
+[[nodiscard]] bool are_of_curved_surface(const auto& a, const surface_patch& of_a, const auto& b,
+                                         const surface_patch& of_b) {
+    constexpr angle least = degrees(0.5);  // numerical: parallel planes meet in no line
+    return are_turned(a, b, least) && !are_turned(a, b, widest_crease) &&
+           common_paraboloid(of_a, of_b).is_better();
+}
+
+/// How much worse a paraboloid explains two patches apart from each other than their planes do, at
+/// least one of which is of several regions; at most 1 if they may be merged. As for planes, the
+/// smaller one must be near the paraboloid of the larger one.
+[[nodiscard]] inline double dissimilarity_of_curved(const surface_patch& a, const surface_patch& b,
+                                                    double max_offset) {
+    constexpr double chi2_of_6 = 19.8;  // 99.7 %, of six degrees of freedom
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (std::min(a.regions, b.regions) == 0 || std::max(a.regions, b.regions) == 1) return never;
+    const common_paraboloid both(a, b);
+    if (!both.is_determined() || both.offset() > max_offset) return never;
+    return both.worse() / chi2_of_6;
+}
+
+/// The sets of regions next to each other that are pieces of one curved surface. O(n), and O(1) for
+/// each pair of them.
+/// @param graph    the neighbors whose labels compete for each point
+/// @param labels   numbers of the regions
+template <neighborhood_graph G, execution X>
+[[nodiscard]] union_find curved_surfaces(const planar_cloud& cloud, const G& graph,
+                                         const auto& labels, const scratch<planar_region>& regions,
+                                         const X& run) {
+    scratch<char> is_border = borders_of(graph, labels, run);
+    const auto pairs = compete(cloud, graph, regions, labels, is_border, run).touching;
+    const label_groups members(labels);
+    scratch<surface_patch> patches;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        patches.push_back(patch_of(cloud, regions[r], members[r]));
+    union_find sets(regions.size());
+    run(pairs.size(), [&](std::size_t p) {
+        const auto& [a, b] = pairs[p];
+        if (are_of_curved_surface(regions[a], patches[a], regions[b], patches[b])) sets.unite(a, b);
+    });
+    return sets;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/curved_merger.hpp ----------------------------------------------
+
+/// @file
+/// Merging of curved surfaces across gaps: a road before a vehicle and behind it, or on both sides
+/// of the place below a lidar that the lidar cannot see. As merge_occluded for planes, with
+/// paraboloids.
+
+namespace gnomon::detail {
+
+/// One run: the most similar pair first, of which one is curved, until no two are similar.
+template <merge_policy M>
+class curved_merger {
+  public:
+    /// @param cloud    of the points
+    /// @param parts    segments of these points: planes
+    /// @param planes   the sets of coplanar segments that were merged
+    /// @param curved   the sets of segments that are pieces of one curved surface
+    curved_merger(const spatial_index& points, const planar_cloud& cloud, const segments& parts,
+                  union_find& planes, union_find& curved, const visibility& visible,
+                  const M& policy, const merge_occluded_options& options)
+        : points_(points),
+          visible_(visible),
+          policy_(policy),
+          options_(options),
+          sets_(parts.size()),
+          patches_(parts.size()),
+          members_(parts.size()) {
+        sets_.unite_as(planes);
+        sets_.unite_as(curved);
+        scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+        unite_labels(labels, planes);
+        const label_groups regions(labels);
+        for (std::size_t r = 0; r < regions.size(); ++r) add(r, regions[r], cloud);
+    }
+
+    /// Merges the segments; their sets.
+    /// @param each_gap  each_gap(examined_gap) is called for all gaps
+    [[nodiscard]] union_find operator()(auto&& each_gap) {
+        scratch<candidate> candidates = all_candidates();
+        while (!candidates.empty()) {
+            const auto best = std::min_element(candidates.begin(), candidates.end());
+            const auto [a, b] = best->second;
+            candidates.erase(best);
+            examined_gap gap = gap_between({a, members_[a]}, {b, members_[b]}, points_, visible_,
+                                           policy_, options_);
+            gap.merged = gap.is_closed;
+            each_gap(gap);
+            if (!gap.merged) continue;
+            sets_.unite(a, b);
+            patches_[a].add(patches_[b]);
+            members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
+            patches_[b] = {};
+            std::erase_if(candidates, [&](const candidate& c) {
+                const auto [first, second] = c.second;
+                return first == a || first == b || second == a || second == b;
+            });
+            for (std::size_t other = 0; other < patches_.size(); ++other)
+                if (other != a)
+                    compare(std::minmax(a, static_cast<point_index>(other)), candidates);
+        }
+        return std::move(sets_);
+    }
+
+  private:
+    using candidate = std::pair<double, region_pair>;  // dissimilarity
+
+    /// Adds a region to the patch of its set, if it is planar.
+    void add(std::size_t region, std::span<const point_index> points, const planar_cloud& cloud) {
+        const planar_region plane = region_of(cloud, points);
+        if (!plane.is_planar) return;
+        scratch<point_index> on;
+        for (const point_index i : points)
+            if (cloud.is_finite(i) && cloud.is_on(i, plane.fit)) on.push_back(i);
+        const point_index set = sets_.find(static_cast<point_index>(region));
+        patches_[set].add(patch_of(cloud, plane, on));
+        members_[set].insert(members_[set].end(), on.begin(), on.end());
+    }
+
+    [[nodiscard]] scratch<candidate> all_candidates() const {
+        scratch<candidate> candidates;
+        for (point_index a = 0; a < patches_.size(); ++a)
+            for (point_index b = a + 1; b < patches_.size(); ++b) compare({a, b}, candidates);
+        return candidates;
+    }
+
+    /// Adds a pair to the candidates if it may be merged.
+    void compare(const region_pair& pair, scratch<candidate>& candidates) const {
+        const double d = dissimilarity_of_curved(patches_[pair.first], patches_[pair.second],
+                                                 options_.max_offset);
+        if (d <= 1.0) candidates.emplace_back(d, pair);
+    }
+
+    const spatial_index& points_;
+    const visibility& visible_;
+    const M& policy_;
+    const merge_occluded_options& options_;
+    union_find sets_;
+    scratch<surface_patch> patches_;         // of the sets, at their smallest segments
+    scratch<scratch<point_index>> members_;  // likewise, those on the planes
+};
+
+/// The sets of the segments of an index that are one surface, plane or curved, after merging.
+/// @param cloud     of the points
+/// @param curved    the sets of segments that are pieces of one curved surface
+/// @param each_gap  each_gap(examined_gap) is called for all gaps
+template <merge_policy M, execution X>
+[[nodiscard]] union_find merged_surfaces(const spatial_index& points, const planar_cloud& cloud,
+                                         const segments& parts, union_find curved,
+                                         const visibility& visible, const M& policy,
+                                         const merge_occluded_options& options, const X& run,
+                                         auto&& each_gap) {
+    union_find planes = merged_sets(points, cloud, parts, visible, policy, options, run, each_gap);
+    if (curved.is_of_singletons()) return planes;
+    return curved_merger(points, cloud, parts, planes, curved, visible, policy, options)(each_gap);
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/perception/detail/perception_memory.hpp -----------------------------------------
 
 /// @file
@@ -29283,96 +29764,6 @@ struct cells {
         return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
     }
 };
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/segmentation/detail/curved_pieces.hpp -------------------------------------------
-
-/// @file
-/// Planar pieces of a curved surface: a road that falls to its sides is several planes next to each
-/// other. Two regions belong to one surface if a paraboloid explains both better than their planes
-/// do. At a crease or a step the planes are better.
-
-namespace gnomon::detail {
-
-/// A grid of side x side parts over the extent of some places.
-template <std::size_t side>
-class part_grid {
-  public:
-    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
-
-    void enclose(const Eigen::Vector3d& place) {
-        for (std::size_t a = 0; a < 2; ++a) {
-            low_[a] = std::min(low_[a], dot(axes_[a], place));
-            high_[a] = std::max(high_[a], dot(axes_[a], place));
-        }
-    }
-    [[nodiscard]] std::size_t part_of(const Eigen::Vector3d& place) const {
-        return number(0, place) * side + number(1, place);
-    }
-
-  private:
-    [[nodiscard]] std::size_t number(std::size_t a, const Eigen::Vector3d& place) const {
-        const double extent = high_[a] - low_[a];
-        if (!(extent > 0.0)) return 0;
-        constexpr auto parts = static_cast<double>(side);
-        return static_cast<std::size_t>(
-            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
-    }
-
-    static constexpr double none = std::numeric_limits<double>::infinity();
-    std::array<Eigen::Vector3d, 2> axes_;
-    std::array<double, 2> low_{none, none}, high_{-none, -none};
-};
-
-/// Whether two regions next to each other are pieces of one curved surface: their planes are
-/// certainly turned, and not at an edge. O(n)
-/// @param cloud  a planar_cloud
-/// @param a, b   planar_regions
-/// @param of_a   members, all finite; likewise of_b
-template <class Cloud>
-[[nodiscard]] bool are_of_curved_surface(const Cloud& cloud, const auto& a,
-                                         std::span<const point_index> of_a, const auto& b,
-                                         std::span<const point_index> of_b) {
-    constexpr angle least = degrees(0.5);  // numerical: parallel planes meet in no line
-    if (!are_turned(a, b, least) || are_turned(a, b, widest_crease)) return false;
-    const Eigen::Vector3d &n = a.fit.plane.normal, &m = b.fit.plane.normal;
-    plane_sums all = a.sums;
-    all.add(b.sums);
-    const Eigen::Vector3d along = direction_of(cross(n, m));
-    const Eigen::Vector3d across = cross(all.fit().plane.normal, along);
-    constexpr std::size_t side = 8;  // numerical: parts of a region along it, and across
-    part_grid<side> grid(along, across);
-    for (const auto& members : {of_a, of_b})
-        for (const point_index i : members) grid.enclose(cloud.offsets[i]);
-    parabola_test<2 * side * side, curved_terms::paraboloid> test(all, along);
-    for (const auto& [region, members] : {std::pair(&a, of_a), std::pair(&b, of_b)}) {
-        std::array<plane_sums, side * side> parts{};
-        for (const point_index i : members) cloud.add(i, parts[grid.part_of(cloud.offsets[i])]);
-        for (const plane_sums& part : parts) test.add(part, region->fit.plane);
-    }
-    return test.is_curved();
-}
-
-/// The sets of regions next to each other that are pieces of one curved surface. O(n) for each pair
-/// of them.
-/// @param graph    the neighbors whose labels compete for each point
-/// @param labels   numbers of the regions
-template <neighborhood_graph G, execution X>
-[[nodiscard]] union_find curved_surfaces(const planar_cloud& cloud, const G& graph,
-                                         const auto& labels, const scratch<planar_region>& regions,
-                                         const X& run) {
-    scratch<char> is_border = borders_of(graph, labels, run);
-    const auto pairs = compete(cloud, graph, regions, labels, is_border, run).touching;
-    const label_groups parts(labels);
-    union_find sets(regions.size());
-    run(pairs.size(), [&](std::size_t p) {
-        const auto& [a, b] = pairs[p];
-        if (are_of_curved_surface(cloud, regions[a], parts[a], regions[b], parts[b]))
-            sets.unite(a, b);
-    });
-    return sets;
-}
 
 }  // namespace gnomon::detail
 
@@ -29786,17 +30177,17 @@ class perception_run {
     /// Merges the segments in memory, where the noise along the rays is known.
     /// @param things, cloud  cells or kept points
     /// @param labels    the segments of the kept points
-    /// @param together  the sets of segments that are one in any case
+    /// @param curved    the sets of segments that are pieces of one curved surface
     /// @param point_of  point_of(thing): the number of a kept point of it
     void merge(const spatial_index& things, const planar_cloud& cloud,
-               scratch<std::int32_t>& labels, union_find together, auto&& point_of) {
+               scratch<std::int32_t>& labels, union_find curved, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
         const visibility visible(points_, with_noise(chain_.visibility, noise), run_, projection_);
-        union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
-                                      with_noise(chain_.merging, noise), run_,
-                                      [&](const examined_gap& gap) { note(gap, point_of); });
-        sets.unite_as(together);
+        const auto each_gap = [&](const examined_gap& gap) { note(gap, point_of); };
+        union_find sets =
+            merged_surfaces(things, cloud, result_.memory.parts, std::move(curved), visible,
+                            chain_.merge, with_noise(chain_.merging, noise), run_, each_gap);
         unite_labels(labels, sets);
         set_segments(result_.surfaces, labels);
     }
@@ -29823,7 +30214,6 @@ class perception_run {
         const planar_cloud cloud(*given_, result_.noise.of_planes, run_, is_seen);
         const planar_cloud exact(*given_, result_.noise.curve, run_, is_seen);
         scratch<std::int32_t> labels;
-        labels.reserve(result_.kept.size());
         for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);
         const label_groups parts(labels);
         result_.planes.assign(result_.surfaces.size(), {});

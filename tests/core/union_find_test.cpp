@@ -76,6 +76,16 @@ TEST(union_find, is_used_again_and_moved) {
     }
 }
 
+TEST(union_find, knows_whether_all_are_singletons) {
+    gnomon::detail::union_find sets(3);
+    EXPECT_TRUE(sets.is_of_singletons());
+    sets.unite(2, 1);
+    EXPECT_FALSE(sets.is_of_singletons());
+    sets.reset(3);
+    EXPECT_TRUE(sets.is_of_singletons());
+    EXPECT_TRUE(gnomon::detail::union_find().is_of_singletons());
+}
+
 TEST(union_find, of_nothing_is_nothing) { EXPECT_EQ(gnomon::detail::union_find(0).size(), 0u); }
 
 }  // namespace

@@ -15,8 +15,9 @@
 
 namespace {
 
-/// A ground of 16 by 8 m, seen by a level sensor 1.8 m above its middle, with noise of 1 cm.
-gnomon::scan seen_ground(const std::function<double(double)>& height) {
+/// A ground of 16 by 8 m, seen by a level sensor 1.8 m above its middle, with noise of 1 cm. Of
+/// places that another thing hides, or is seen through, the rays have `other` times the length.
+gnomon::scan seen_ground(const std::function<double(double)>& height, double other = 1.0) {
     constexpr double sigma = 0.01;
     const Eigen::Vector3d sensor(0.0, 0.0, 1.8);
     gnomon::scan scan;
@@ -28,7 +29,8 @@ gnomon::scan seen_ground(const std::function<double(double)>& height) {
         const double range = 1.8 / std::tan(random.uniform(0.15, 1.2));
         const double x = range * std::cos(azimuth), y = range * std::sin(azimuth);
         if (std::abs(x) > 8.0 || std::abs(y) > 4.0) continue;
-        const Eigen::Vector3d at(x, y, height(y));
+        Eigen::Vector3d at(x, y, height(y));
+        if (x > 3.0 && x < 4.5) at = sensor + other * (at - sensor);
         scan.points.push_back(at + sigma * random.gaussian() * (at - sensor).normalized());
     }
     return scan;
@@ -50,6 +52,26 @@ TEST(cell_surfaces, are_whole_where_they_are_curved) {
 
     const auto roof = seen_ground([](double y) { return -0.1 * std::abs(y); });
     EXPECT_LT(share_of_largest(chain(roof).surfaces, roof), 0.6);
+}
+
+/// A vehicle hides a strip of the road, or the ground is seen through a gap.
+TEST(cell_surfaces, are_whole_where_they_are_curved_behind_something) {
+    const gnomon::perception<> chain{.noise = gnomon::constant_noise{0.01}};
+    const auto height = [](double y) { return 0.1 * (1.0 - y * y / 16.0); };
+    const auto whole = [&](double other) {
+        const auto road = seen_ground(height, other);
+        const auto seen = chain(road);
+        EXPECT_EQ(chain(road, gnomon::threads{3}).surfaces, seen.surfaces);
+        std::size_t beyond = 0, of_largest = 0;
+        for (std::size_t i = 0; i < road.points.size(); ++i) {
+            if (road.points[i].x() < 6.0) continue;
+            ++beyond;
+            of_largest += seen.surfaces.labels()[i] == 0 ? 1 : 0;
+        }
+        return static_cast<double>(of_largest) / static_cast<double>(beyond);
+    };
+    EXPECT_GT(whole(0.6), 0.9) << "occluded";
+    EXPECT_LT(whole(1.5), 0.1) << "free";
 }
 
 }  // namespace

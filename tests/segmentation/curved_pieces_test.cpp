@@ -44,8 +44,10 @@ class halves {
     }
 
     [[nodiscard]] bool are_one() const {
-        return gnomon::detail::are_of_curved_surface(cloud_, regions_[0], members_[0], regions_[1],
-                                                     members_[1]);
+        return gnomon::detail::are_of_curved_surface(regions_[0], patch(0), regions_[1], patch(1));
+    }
+    [[nodiscard]] gnomon::detail::surface_patch patch(std::size_t half) const {
+        return gnomon::detail::patch_of(cloud_, regions_[half], members_[half]);
     }
     /// Likewise, where they are found by their neighbors.
     [[nodiscard]] bool are_one_set() const {
@@ -106,11 +108,94 @@ TEST(curved_pieces, are_two_at_creases_and_steps) {
 /// The curved surface is that of few points as well, and of points on one line it is none.
 TEST(curved_pieces, survive_flat_and_thin_regions) {
     EXPECT_FALSE(halves([](double, double) { return 0.0; }).are_one());
-    gnomon::detail::planar_region a, b;
-    const gnomon::spatial_index empty(std::vector<Eigen::Vector3d>{});
-    const gnomon::detail::planar_cloud none(empty, gnomon::constant_noise{ground_noise},
-                                            gnomon::sequential{});
-    EXPECT_FALSE(gnomon::detail::are_of_curved_surface(none, a, {}, b, {}));
+    const gnomon::detail::planar_region none;
+    EXPECT_FALSE(gnomon::detail::are_of_curved_surface(none, {}, none, {}));
+}
+
+/// A ground of 30 by 8 m in four regions, two before and two behind a gap of 4 m.
+class ends {
+  public:
+    explicit ends(const std::function<double(double, double)>& height, std::uint64_t seed = 1)
+        : index_(scan_of(height, seed)),
+          cloud_(index_, gnomon::constant_noise{ground_noise}, gnomon::sequential{}) {
+        for (std::size_t i = 0; i < index_.size(); ++i) {
+            const std::size_t r = (index_[i].x() > 0.0 ? 2u : 0u) + (index_[i].y() > 0.0 ? 1u : 0u);
+            members_[r].push_back(static_cast<point_index>(i));
+            cloud_.add(i, regions_[r].sums);
+        }
+        for (auto& r : regions_) r.fit = r.sums.fit();
+    }
+
+    [[nodiscard]] gnomon::detail::surface_patch patch(std::size_t region) const {
+        return gnomon::detail::patch_of(cloud_, regions_[region], members_[region]);
+    }
+    /// Of the two ends.
+    [[nodiscard]] double dissimilarity() const {
+        auto behind = patch(0), before = patch(2);
+        behind.add(patch(1));
+        before.add(patch(3));
+        return gnomon::detail::dissimilarity_of_curved(behind, before, 0.05);
+    }
+
+  private:
+    static gnomon::scan scan_of(const std::function<double(double, double)>& height,
+                                std::uint64_t seed) {
+        gnomon::random_stream random(seed);
+        gnomon::scan scan;
+        scan.viewpoints = above_ground;
+        while (scan.points.size() < 6000) {
+            const double x = random.uniform(-15.0, 15.0), y = random.uniform(-4.0, 4.0);
+            if (std::abs(x) < 2.0) continue;
+            const Eigen::Vector3d at(x, y, height(x, y));
+            scan.points.push_back(at + ground_noise * random.gaussian() *
+                                           (at - above_ground).normalized());
+        }
+        return scan;
+    }
+
+    gnomon::spatial_index index_;
+    gnomon::detail::planar_cloud cloud_;
+    std::array<gnomon::detail::planar_region, 4> regions_;
+    std::array<std::vector<point_index>, 4> members_;
+};
+
+double road_height(double y) { return 0.1 * (1.0 - y * y / 16.0); }
+
+TEST(curved_pieces, are_one_across_a_gap_where_a_paraboloid_explains_both) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        EXPECT_LE(ends([](double, double y) { return road_height(y); }, seed).dissimilarity(), 1.0)
+            << seed;
+        const ends hill([](double x, double y) { return road_height(y) + 0.001 * x * x; }, seed);
+        EXPECT_LE(hill.dissimilarity(), 1.0) << "curved along the gap, too; " << seed;
+        const auto with_pavement = [](double x, double y) {
+            return x > 13.0 && y > 3.5 ? 0.12 : road_height(y);
+        };
+        EXPECT_LE(ends(with_pavement, seed).dissimilarity(), 1.0) << "but for a corner; " << seed;
+    }
+}
+
+TEST(curved_pieces, are_two_across_a_gap_at_steps_and_creases) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const auto step = [](double x, double y) {
+            return road_height(y) + (x > 0.0 ? 0.12 : 0.0);
+        };
+        EXPECT_GT(ends(step, seed).dissimilarity(), 1.0) << seed;
+        const auto ramp = [](double x, double y) {
+            return road_height(y) + std::max(0.0, 0.1 * x);
+        };
+        EXPECT_GT(ends(ramp, seed).dissimilarity(), 1.0) << seed;
+        const auto half = [](double x, double y) {
+            return x > 0.0 && y > 0.0 ? 0.12 : road_height(y);
+        };
+        EXPECT_GT(ends(half, seed).dissimilarity(), 1.0) << "half of one end; " << seed;
+    }
+}
+
+/// That is for planes to decide.
+TEST(curved_pieces, are_two_across_a_gap_where_both_are_single_planes) {
+    const ends road([](double, double y) { return road_height(y); });
+    EXPECT_GT(gnomon::detail::dissimilarity_of_curved(road.patch(0), road.patch(2), 0.05), 1.0);
+    EXPECT_GT(gnomon::detail::dissimilarity_of_curved({}, {}, 0.05), 1.0);
 }
 
 }  // namespace

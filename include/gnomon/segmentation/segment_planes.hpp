@@ -16,8 +16,9 @@
 /// Where the noise is independent from point to point, planes that meet at an angle of only 3
 /// degrees are cut apart in the end, and planes with a step between them of more than a standard
 /// deviation and 1 cm. It is taken to be so where view points are known and the rays are not all
-/// within 45 degrees of one axis, as those of a depth camera. All lengths follow from the noise and
-/// a flatness of 2 mm, so that no distance need be set.
+/// within 45 degrees of one axis, as those of a depth camera. At last, parts of a plane that no
+/// neighbors connect become segments of their own, if they are large enough. All lengths follow
+/// from the noise and a flatness of 2 mm, so that no distance need be set.
 #pragma once
 
 #include <algorithm>
@@ -71,6 +72,7 @@ template <neighborhood_graph G, neighborhood_graph Near, normal_range S, executi
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
     regions.cut_edges(run);
     if (noise_is_independent) regions.cut_creases(run);
+    regions.separate(run);
     return regions;
 }
 

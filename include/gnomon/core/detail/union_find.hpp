@@ -35,6 +35,12 @@ class union_find {
 
     /// The number n of elements.
     [[nodiscard]] std::size_t size() const { return size_; }
+    /// Whether no elements are united. O(n).
+    [[nodiscard]] bool is_of_singletons() const {
+        for (std::size_t i = 0; i < size_; ++i)
+            if (load(static_cast<point_index>(i)) != i) return false;
+        return true;
+    }
 
     /// Returns the smallest element of the set of i; while other threads unite, some element of
     /// that set. O(log n) amortised. Precondition: i < n.

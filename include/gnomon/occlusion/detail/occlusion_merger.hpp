@@ -18,7 +18,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/occlusion/boundary_pairs.hpp>
+#include <gnomon/occlusion/detail/examined_gap.hpp>
 #include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
@@ -31,14 +31,6 @@
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
-
-/// A gap between two segments, as `considered_gap`.
-struct examined_gap {
-    region_pair sides;
-    scratch<boundary_pair> lines;
-    observation_count seen = {};
-    bool merged = false;
-};
 
 /// One run of the algorithm.
 /// @tparam Options  `merge_occluded_options`, which are valid
@@ -139,36 +131,11 @@ class occlusion_merger {
                (b.sums.count < a.sums.count || is_on(b));
     }
 
-    /// Whether the gap is narrow, or the policy accepts most of the lines across it; unless one of
-    /// them alone keeps it open.
+    /// Whether the gap between two segments is closed.
     [[nodiscard]] bool is_closed(point_index a, point_index b) {
-        examined_gap gap{{a, b}, {}};
-        append_boundary_pairs(gap.lines, points_, members_[a], members_[b],
-                              {centroid(a), centroid(b)}, options_.boundary_pairs);
-        std::size_t accepted = 0;
-        bool is_kept_open = false;
-        for (const boundary_pair& line : gap.lines) {
-            const Eigen::Vector3d v =
-                combined(0.5, points_.viewpoints[line.first], 0.5, points_.viewpoints[line.second]);
-            const observation_count seen =
-                visible_.between(points_[line.first], points_[line.second], v);
-            gap.seen += seen;
-            is_kept_open = is_kept_open || keeps_open(policy_, seen);
-            accepted += accepts(policy_, seen) ? 1 : 0;
-        }
-        const bool is_narrow = coplanar_distance(gap.lines) < options_.max_gap;
-        const bool is_one = !is_kept_open && (is_narrow || 2 * accepted > gap.lines.size());
-        gaps_.push_back(std::move(gap));
-        return is_one;
-    }
-
-    /// Of the points of a segment on its plane, at the beginning of a round [m].
-    [[nodiscard]] Eigen::Vector3d centroid(point_index r) const {
-        Eigen::Vector3d sum(0.0, 0.0, 0.0);
-        const Eigen::Vector3d first = points_[members_[r].front()];
-        for (const point_index i : members_[r])
-            sum = combined(1.0, sum, 1.0, difference(points_[i], first));
-        return combined(1.0, first, 1.0 / static_cast<double>(members_[r].size()), sum);
+        const auto side = [&](point_index r) { return gap_side{r, members_[r]}; };
+        gaps_.push_back(gap_between(side(a), side(b), points_, visible_, policy_, options_));
+        return gaps_.back().is_closed;
     }
 
     const spatial_index& points_;

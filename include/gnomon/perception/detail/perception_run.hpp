@@ -10,6 +10,7 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <gnomon/core/detail/pooled_run.hpp>
 #include <gnomon/core/detail/scratch.hpp>
@@ -27,8 +28,8 @@
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
-#include <gnomon/occlusion/detail/occlusion_merger.hpp>
-#include <gnomon/occlusion/merge_occluded.hpp>
+#include <gnomon/occlusion/detail/curved_merger.hpp>
+#include <gnomon/occlusion/detail/examined_gap.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/cell_surfaces.hpp>
@@ -193,17 +194,17 @@ class perception_run {
     /// Merges the segments in memory, where the noise along the rays is known.
     /// @param things, cloud  cells or kept points
     /// @param labels    the segments of the kept points
-    /// @param together  the sets of segments that are one in any case
+    /// @param curved    the sets of segments that are pieces of one curved surface
     /// @param point_of  point_of(thing): the number of a kept point of it
     void merge(const spatial_index& things, const planar_cloud& cloud,
-               scratch<std::int32_t>& labels, union_find together, auto&& point_of) {
+               scratch<std::int32_t>& labels, union_find curved, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
         const visibility visible(points_, with_noise(chain_.visibility, noise), run_, projection_);
-        union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
-                                      with_noise(chain_.merging, noise), run_,
-                                      [&](const examined_gap& gap) { note(gap, point_of); });
-        sets.unite_as(together);
+        const auto each_gap = [&](const examined_gap& gap) { note(gap, point_of); };
+        union_find sets =
+            merged_surfaces(things, cloud, result_.memory.parts, std::move(curved), visible,
+                            chain_.merge, with_noise(chain_.merging, noise), run_, each_gap);
         unite_labels(labels, sets);
         set_segments(result_.surfaces, labels);
     }
@@ -230,7 +231,6 @@ class perception_run {
         const planar_cloud cloud(*given_, result_.noise.of_planes, run_, is_seen);
         const planar_cloud exact(*given_, result_.noise.curve, run_, is_seen);
         scratch<std::int32_t> labels;
-        labels.reserve(result_.kept.size());
         for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);
         const label_groups parts(labels);
         result_.planes.assign(result_.surfaces.size(), {});

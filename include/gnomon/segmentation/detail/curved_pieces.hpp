@@ -1,96 +1,168 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Planar pieces of a curved surface: a road that falls to its sides is several planes next to each
-/// other. Two regions belong to one surface if a paraboloid explains both better than their planes
-/// do. At a crease or a step the planes are better.
+/// Planar pieces of a curved surface: a road that falls to its sides is several planes. Two
+/// regions next to each other belong to one surface if a paraboloid explains both better than their
+/// planes do; at a crease or a step the planes are better. Apart from each other they may do so if
+/// it explains them as well, and one of them is curved by itself.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/point.hpp>
+#include <gnomon/core/plane.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
-#include <gnomon/segmentation/detail/parabola_test.hpp>
+#include <gnomon/segmentation/detail/orthogonal_terms.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/surface_patch.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 
-/// A grid of side x side parts over the extent of some places.
-template <std::size_t side>
-class part_grid {
+/// The parts of two patches, and their heights over a paraboloid that fits them.
+class common_paraboloid {
   public:
-    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
-
-    void enclose(const Eigen::Vector3d& place) {
-        for (std::size_t a = 0; a < 2; ++a) {
-            low_[a] = std::min(low_[a], dot(axes_[a], place));
-            high_[a] = std::max(high_[a], dot(axes_[a], place));
-        }
+    common_paraboloid(const surface_patch& a, const surface_patch& b)
+        : patches_{&a, &b}, base_(plane_of_both(a, b)) {
+        for (const surface_patch* patch : patches_)
+            for (const surface_part& part : patch->parts) parts_.push_back(&part);
+        for (const surface_part* part : parts_) weights_.push_back(part->weight);
     }
-    [[nodiscard]] std::size_t part_of(const Eigen::Vector3d& place) const {
-        return number(0, place) * side + number(1, place);
+
+    /// Whether a plane of both is known, and those of the patches are nearly parallel to it.
+    [[nodiscard]] bool is_determined() const {
+        return base_.is_determined && std::ranges::all_of(patches_, [&](const auto* patch) {
+                   const region_plane own = patch->sums.fit();
+                   return own.is_determined && is_nearly_parallel(own, base_);
+               });
+    }
+
+    /// Whether it explains the parts better than their planes do.
+    [[nodiscard]] bool is_better() const {
+        const scratch<double> heights = heights_over(weights_);
+        double of_planes = 0.0;
+        for (const surface_part* part : parts_)
+            of_planes += part->weight * part->off_plane * part->off_plane;
+        return of_planes > weighted_product(weights_, heights, heights);
+    }
+
+    /// How far the smaller patch is, on average, from the paraboloid of the larger one alone [m];
+    /// of equal ones, the second one counts as smaller.
+    [[nodiscard]] double offset() const {
+        const std::size_t smaller = patches_[1]->sums.count <= patches_[0]->sums.count ? 1 : 0;
+        scratch<double> of_larger = weights_;
+        for (std::size_t p = 0; p < parts_.size(); ++p)
+            if (patch_of(p) == smaller) of_larger[p] = 0.0;
+        const scratch<double> heights = heights_over(of_larger);
+        double sum = 0.0, weight = 0.0;
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            if (patch_of(p) != smaller) continue;
+            sum += weights_[p] * heights[p];
+            weight += weights_[p];
+        }
+        return std::abs(sum / weight);
+    }
+
+    /// How much worse it explains the patches than their planes do: the sum of squared deviations
+    /// of their means, in variances, by which it is worse for either. Parts that the noise of
+    /// points does not explain are left out, as planes reach beyond the border of a surface by
+    /// some; infinite if they are more than an edge of a patch, one row of its parts.
+    [[nodiscard]] double worse() const {
+        scratch<double> weights = weights_;
+        constexpr int most_passes = 50;  // numerical: two or three are enough
+        for (int pass = 0; pass < most_passes; ++pass) {
+            const scratch<double> heights = heights_over(weights);
+            std::array<std::size_t, 2> off{};
+            std::array<double, 2> worse{};
+            bool rests = true;
+            for (std::size_t p = 0; p < parts_.size(); ++p) {
+                const surface_part& part = *parts_[p];
+                const std::size_t patch = patch_of(p);
+                const bool is_on = std::abs(heights[p]) <= part.reach;
+                rests = rests && is_on == (weights[p] > 0.0);
+                weights[p] = is_on ? part.weight : 0.0;
+                if (!is_on) off[patch] += part.count;
+                if (is_on)
+                    worse[patch] +=
+                        part.weight * (heights[p] * heights[p] - part.off_plane * part.off_plane);
+            }
+            for (std::size_t patch = 0; patch < 2; ++patch)
+                if (parts_along * off[patch] > patches_[patch]->sums.count)
+                    return std::numeric_limits<double>::infinity();
+            if (!rests) continue;
+            return std::max(0.0, worse[0]) / patches_[0]->excess +
+                   std::max(0.0, worse[1]) / patches_[1]->excess;
+        }
+        return std::numeric_limits<double>::infinity();
     }
 
   private:
-    [[nodiscard]] std::size_t number(std::size_t a, const Eigen::Vector3d& place) const {
-        const double extent = high_[a] - low_[a];
-        if (!(extent > 0.0)) return 0;
-        constexpr auto parts = static_cast<double>(side);
-        return static_cast<std::size_t>(
-            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
+    [[nodiscard]] std::size_t patch_of(std::size_t part) const {
+        return part < patches_[0]->parts.size() ? 0 : 1;
     }
 
-    static constexpr double none = std::numeric_limits<double>::infinity();
-    std::array<Eigen::Vector3d, 2> axes_;
-    std::array<double, 2> low_{none, none}, high_{-none, -none};
+    /// Of all parts, over the paraboloid that fits them best by these weights.
+    [[nodiscard]] scratch<double> heights_over(const scratch<double>& weights) const {
+        const Eigen::Vector3d along = orthogonal(base_.plane.normal);
+        const Eigen::Vector3d across = cross(base_.plane.normal, along);
+        std::array<scratch<double>, 6> terms;  // formula: 1, x, y, x^2, x y, y^2
+        scratch<double> heights;
+        for (const surface_part* part : parts_) {
+            const Eigen::Vector3d offset = difference(part->mean, base_.centroid);
+            const double x = dot(along, offset), y = dot(across, offset);
+            const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
+            for (std::size_t t = 0; t < at.size(); ++t) terms[t].push_back(at[t]);
+            heights.push_back(dot(base_.plane.normal, offset));
+        }
+        remove_terms(weights, terms, heights);
+        return heights;
+    }
+
+    std::array<const surface_patch*, 2> patches_;
+    region_plane base_;
+    scratch<const surface_part*> parts_;  // of both
+    scratch<double> weights_;
 };
 
 /// Whether two regions next to each other are pieces of one curved surface: their planes are
-/// certainly turned, and not at an edge. O(n)
-/// @param cloud  a planar_cloud
-/// @param a, b   planar_regions
-/// @param of_a   members, all finite; likewise of_b
-template <class Cloud>
-[[nodiscard]] bool are_of_curved_surface(const Cloud& cloud, const auto& a,
-                                         std::span<const point_index> of_a, const auto& b,
-                                         std::span<const point_index> of_b) {
+/// certainly turned, and not at an edge.
+/// @param a, b          planar_regions
+/// @param of_a, of_b    their patches
+[[nodiscard]] bool are_of_curved_surface(const auto& a, const surface_patch& of_a, const auto& b,
+                                         const surface_patch& of_b) {
     constexpr angle least = degrees(0.5);  // numerical: parallel planes meet in no line
-    if (!are_turned(a, b, least) || are_turned(a, b, widest_crease)) return false;
-    const Eigen::Vector3d &n = a.fit.plane.normal, &m = b.fit.plane.normal;
-    plane_sums all = a.sums;
-    all.add(b.sums);
-    const Eigen::Vector3d along = direction_of(cross(n, m));
-    const Eigen::Vector3d across = cross(all.fit().plane.normal, along);
-    constexpr std::size_t side = 8;  // numerical: parts of a region along it, and across
-    part_grid<side> grid(along, across);
-    for (const auto& members : {of_a, of_b})
-        for (const point_index i : members) grid.enclose(cloud.offsets[i]);
-    parabola_test<2 * side * side, curved_terms::paraboloid> test(all, along);
-    for (const auto& [region, members] : {std::pair(&a, of_a), std::pair(&b, of_b)}) {
-        std::array<plane_sums, side * side> parts{};
-        for (const point_index i : members) cloud.add(i, parts[grid.part_of(cloud.offsets[i])]);
-        for (const plane_sums& part : parts) test.add(part, region->fit.plane);
-    }
-    return test.is_curved();
+    return are_turned(a, b, least) && !are_turned(a, b, widest_crease) &&
+           common_paraboloid(of_a, of_b).is_better();
 }
 
-/// The sets of regions next to each other that are pieces of one curved surface. O(n) for each pair
-/// of them.
+/// How much worse a paraboloid explains two patches apart from each other than their planes do, at
+/// least one of which is of several regions; at most 1 if they may be merged. As for planes, the
+/// smaller one must be near the paraboloid of the larger one.
+[[nodiscard]] inline double dissimilarity_of_curved(const surface_patch& a, const surface_patch& b,
+                                                    double max_offset) {
+    constexpr double chi2_of_6 = 19.8;  // 99.7 %, of six degrees of freedom
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (std::min(a.regions, b.regions) == 0 || std::max(a.regions, b.regions) == 1) return never;
+    const common_paraboloid both(a, b);
+    if (!both.is_determined() || both.offset() > max_offset) return never;
+    return both.worse() / chi2_of_6;
+}
+
+/// The sets of regions next to each other that are pieces of one curved surface. O(n), and O(1) for
+/// each pair of them.
 /// @param graph    the neighbors whose labels compete for each point
 /// @param labels   numbers of the regions
 template <neighborhood_graph G, execution X>
@@ -99,12 +171,14 @@ template <neighborhood_graph G, execution X>
                                          const X& run) {
     scratch<char> is_border = borders_of(graph, labels, run);
     const auto pairs = compete(cloud, graph, regions, labels, is_border, run).touching;
-    const label_groups parts(labels);
+    const label_groups members(labels);
+    scratch<surface_patch> patches;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        patches.push_back(patch_of(cloud, regions[r], members[r]));
     union_find sets(regions.size());
     run(pairs.size(), [&](std::size_t p) {
         const auto& [a, b] = pairs[p];
-        if (are_of_curved_surface(cloud, regions[a], parts[a], regions[b], parts[b]))
-            sets.unite(a, b);
+        if (are_of_curved_surface(regions[a], patches[a], regions[b], patches[b])) sets.unite(a, b);
     });
     return sets;
 }

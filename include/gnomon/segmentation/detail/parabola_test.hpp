@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Whether a curved surface explains the means of parts of a region better than planes do: a
-/// parabola along one direction, or a paraboloid. Their weighted squared residuals are compared.
+/// Whether a surface that is curved along one direction explains the means of parts of a region
+/// better than planes do. Their weighted squared residuals are compared.
 #pragma once
 
 #include <array>
@@ -11,18 +11,13 @@
 
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/plane.hpp>
+#include <gnomon/segmentation/detail/orthogonal_terms.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 
 namespace gnomon::detail {
 
-/// The terms of a height over a plane with the coordinates x and y: 1, x, y, x^2, then x y, y^2.
-enum class curved_terms : std::size_t {
-    parabola = 4,   // formula
-    paraboloid = 6  // formula
-};
-
 /// The comparison for at most `count` parts.
-template <std::size_t count, curved_terms which>
+template <std::size_t count>
 class parabola_test {
   public:
     /// @param all    the sums of all parts
@@ -37,7 +32,7 @@ class parabola_test {
         const Eigen::Vector3d mean = part.positions.mean();
         const Eigen::Vector3d offset = difference(mean, whole_.centroid);
         const double x = dot(along_, offset), y = dot(across_, offset);
-        const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
+        const std::array<double, 4> at{1.0, x, y, x * x};
         for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t][size_] = at[t];
         height_[size_] = whole_.plane.signed_distance(mean);
         weight_[size_] = part.positions.weight;
@@ -46,38 +41,21 @@ class parabola_test {
         ++size_;
     }
 
-    /// The surface is fit by making its terms orthogonal one after the other. To be called once.
+    /// To be called once.
     [[nodiscard]] bool is_curved() {
-        for (std::size_t t = 0; t < terms_.size(); ++t) {
-            for (std::size_t before = 0; before < t; ++before) remove(terms_[before], terms_[t]);
-            remove(terms_[t], height_);
-        }
-        return of_planes_ > product(height_, height_);
+        remove_terms(weight_, terms_, height_);
+        return of_planes_ > weighted_product(weight_, height_, height_);
     }
 
   private:
     using values = std::array<double, count>;  // of the parts
 
-    [[nodiscard]] double product(const values& a, const values& b) const {
-        double sum = 0.0;
-        for (std::size_t p = 0; p < size_; ++p) sum += weight_[p] * a[p] * b[p];
-        return sum;
-    }
-
-    /// Makes values orthogonal to others.
-    void remove(const values& others, values& from) const {
-        const double squared = product(others, others);
-        if (!(squared > 0.0)) return;
-        const double share = product(others, from) / squared;
-        for (std::size_t p = 0; p < size_; ++p) from[p] -= share * others[p];
-    }
-
     region_plane whole_;
     Eigen::Vector3d along_, across_;
     std::size_t size_ = 0;
     double of_planes_ = 0.0;
-    std::array<values, static_cast<std::size_t>(which)> terms_{};
-    values height_{}, weight_{};
+    std::array<values, 4> terms_{};  // formula: 1, x, y, x^2
+    values height_{}, weight_{};     // of no weight beyond the parts that were added
 };
 
 }  // namespace gnomon::detail

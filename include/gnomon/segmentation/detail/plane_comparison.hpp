@@ -113,22 +113,23 @@ inline constexpr angle widest_crease = degrees(30);  // numerical
     return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
 }
 
+/// Whether the plane of a region is nearly that of a larger whole.
+[[nodiscard]] bool is_nearly_parallel(const auto& fit, const region_plane& whole) {
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    return std::abs(dot(fit.plane.normal, whole.plane.normal)) >= min_cosine(max_angle);
+}
+
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two
 /// regressions (Chow 1960); at most 1 if they may be merged. Almost any plane explains a region
 /// that is hardly wider than its noise: its own must be nearly parallel to that of both.
 [[nodiscard]] double dissimilarity_of_apart(const auto& a, const auto& b) {
-    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
-    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
-    const double nearly = min_cosine(max_angle);
+    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
     const region_plane both = plane_of_both(a, b);
     const auto statistic = [&](const auto& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
         return static_cast<double>(r.sums.count) * worse / r.fit.excess();
     };
-    const auto is_parallel = [&](const auto& r) {
-        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
-    };
-    if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
+    if (!both.is_determined || !is_nearly_parallel(a.fit, both) || !is_nearly_parallel(b.fit, both))
         return std::numeric_limits<double>::infinity();
     return (statistic(a) + statistic(b)) / chi2_of_3;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// A labeling of a cloud by planes: their growth, the merging of neighbors, the competition for
-/// points, and cuts at edges, in turns.
+/// points, and cuts at edges, in turns; at last their parts that are apart are separated.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/plane.hpp>
@@ -27,6 +28,7 @@
 #include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/detail/region_pairs.hpp>
+#include <gnomon/segmentation/detail/separate_parts.hpp>
 #include <gnomon/segmentation/detail/step_cut.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -84,6 +86,14 @@ class plane_regions {
             const bool has_cut = cut(run, cut_of);
             if (!move_to_creases(run) && !has_cut) return;
         }
+    }
+
+    /// Makes regions of the parts of regions that no neighbors connect.
+    template <execution X>
+    void separate(const X& run) {
+        if (!separate_parts(graph_, labels_, min_points_, run)) return;
+        refit();
+        compact();
     }
 
   private:

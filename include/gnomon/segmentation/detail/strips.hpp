@@ -77,7 +77,7 @@ class strips {
         const auto [a, b] = sides_of(cut);
         plane_sums all = a.sums;
         all.add(b.sums);
-        parabola_test<count, curved_terms::parabola> test(all, along_);
+        parabola_test<count> test(all, along_);
         for (std::size_t s = 0; s < count; ++s) test.add(sums_[s], (s < cut ? a : b).fit.plane);
         return test.is_curved();
     }
