@@ -29355,11 +29355,11 @@ class common_paraboloid {
         const std::size_t smaller = patches_[1]->sums.count <= patches_[0]->sums.count ? 1 : 0;
         scratch<double> of_larger = weights_;
         for (std::size_t p = 0; p < parts_.size(); ++p)
-            if (patch_of(p) == smaller) of_larger[p] = 0.0;
+            if (side_of(p) == smaller) of_larger[p] = 0.0;
         const scratch<double> heights = heights_over(of_larger);
         double sum = 0.0, weight = 0.0;
         for (std::size_t p = 0; p < parts_.size(); ++p) {
-            if (patch_of(p) != smaller) continue;
+            if (side_of(p) != smaller) continue;
             sum += weights_[p] * heights[p];
             weight += weights_[p];
         }
@@ -29380,17 +29380,17 @@ class common_paraboloid {
             bool rests = true;
             for (std::size_t p = 0; p < parts_.size(); ++p) {
                 const surface_part& part = *parts_[p];
-                const std::size_t patch = patch_of(p);
+                const std::size_t side = side_of(p);
                 const bool is_on = std::abs(heights[p]) <= part.reach;
                 rests = rests && is_on == (weights[p] > 0.0);
                 weights[p] = is_on ? part.weight : 0.0;
-                if (!is_on) off[patch] += part.count;
+                if (!is_on) off[side] += part.count;
                 if (is_on)
-                    worse[patch] +=
+                    worse[side] +=
                         part.weight * (heights[p] * heights[p] - part.off_plane * part.off_plane);
             }
-            for (std::size_t patch = 0; patch < 2; ++patch)
-                if (parts_along * off[patch] > patches_[patch]->sums.count)
+            for (std::size_t side = 0; side < 2; ++side)
+                if (parts_along * off[side] > patches_[side]->sums.count)
                     return std::numeric_limits<double>::infinity();
             if (!rests) continue;
             return std::max(0.0, worse[0]) / patches_[0]->excess +
@@ -29400,7 +29400,8 @@ class common_paraboloid {
     }
 
   private:
-    [[nodiscard]] std::size_t patch_of(std::size_t part) const {
+    /// Which patch a part is of.
+    [[nodiscard]] std::size_t side_of(std::size_t part) const {
         return part < patches_[0]->parts.size() ? 0 : 1;
     }
 
@@ -29516,7 +29517,7 @@ class curved_merger {
         scratch<candidate> candidates = all_candidates();
         while (!candidates.empty()) {
             const auto best = std::min_element(candidates.begin(), candidates.end());
-            const auto [a, b] = best->second;
+            const point_index a = best->second.first, b = best->second.second;
             candidates.erase(best);
             examined_gap gap = gap_between({a, members_[a]}, {b, members_[b]}, points_, visible_,
                                            policy_, options_);
@@ -29528,8 +29529,8 @@ class curved_merger {
             members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
             patches_[b] = {};
             std::erase_if(candidates, [&](const candidate& c) {
-                const auto [first, second] = c.second;
-                return first == a || first == b || second == a || second == b;
+                const region_pair& p = c.second;
+                return p.first == a || p.first == b || p.second == a || p.second == b;
             });
             for (std::size_t other = 0; other < patches_.size(); ++other)
                 if (other != a)

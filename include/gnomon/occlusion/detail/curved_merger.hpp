@@ -62,7 +62,7 @@ class curved_merger {
         scratch<candidate> candidates = all_candidates();
         while (!candidates.empty()) {
             const auto best = std::min_element(candidates.begin(), candidates.end());
-            const auto [a, b] = best->second;
+            const point_index a = best->second.first, b = best->second.second;
             candidates.erase(best);
             examined_gap gap = gap_between({a, members_[a]}, {b, members_[b]}, points_, visible_,
                                            policy_, options_);
@@ -74,8 +74,8 @@ class curved_merger {
             members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
             patches_[b] = {};
             std::erase_if(candidates, [&](const candidate& c) {
-                const auto [first, second] = c.second;
-                return first == a || first == b || second == a || second == b;
+                const region_pair& p = c.second;
+                return p.first == a || p.first == b || p.second == a || p.second == b;
             });
             for (std::size_t other = 0; other < patches_.size(); ++other)
                 if (other != a)
