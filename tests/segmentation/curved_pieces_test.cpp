@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,44 +25,48 @@ using gnomon::point_index;
 constexpr double ground_noise = 0.02;  // [m]
 const Eigen::Vector3d above_ground(0.0, 0.0, 3.0);
 
-/// A ground of 20 by 8 m with noise along the rays, and its two halves as regions.
-class halves {
+using height_function = std::function<double(double, double)>;
+
+/// A ground 8 m wide, with noise along the rays, in regions.
+class ground_in_regions {
   public:
-    explicit halves(const std::function<double(double, double)>& height, std::uint64_t seed = 1)
-        : index_(scan_of(height, seed)),
+    [[nodiscard]] gnomon::detail::surface_patch patch(std::size_t region) const {
+        return gnomon::detail::patch_of(cloud_, regions_[region], members_[region]);
+    }
+
+  protected:
+    /// @param length     along x, in the middle of which `gap` is missing [m]
+    /// @param region_of  region_of(place): one of `count`
+    ground_in_regions(const height_function& height, std::uint64_t seed, std::size_t points,
+                      double length, double gap, std::size_t count, auto&& region_of)
+        : index_(scan_of(height, seed, points, length, gap)),
           cloud_(index_, gnomon::constant_noise{ground_noise}, gnomon::sequential{}),
-          labels_(index_.size()) {
-        regions_.resize(2);
+          members_(count) {
+        regions_.resize(count);
         for (std::size_t i = 0; i < index_.size(); ++i) {
-            const std::size_t half = index_[i].y() > 0.0 ? 1 : 0;
-            labels_[i] = static_cast<std::int32_t>(half);
-            members_[half].push_back(static_cast<point_index>(i));
-            cloud_.add(i, regions_[half].sums);
+            const std::size_t r = region_of(index_[i]);
+            labels_.push_back(static_cast<std::int32_t>(r));
+            members_[r].push_back(static_cast<point_index>(i));
+            cloud_.add(i, regions_[r].sums);
         }
         for (auto& r : regions_) r.fit = r.sums.fit();
     }
 
-    [[nodiscard]] bool are_one() const {
-        return gnomon::detail::are_of_curved_surface(regions_[0], patch(0), regions_[1], patch(1));
-    }
-    [[nodiscard]] gnomon::detail::surface_patch patch(std::size_t half) const {
-        return gnomon::detail::patch_of(cloud_, regions_[half], members_[half]);
-    }
-    /// Likewise, where they are found by their neighbors.
-    [[nodiscard]] bool are_one_set() const {
-        auto sets = gnomon::detail::curved_surfaces(cloud_, gnomon::knn{.k = 20}(index_), labels_,
-                                                    regions_, gnomon::threads{2});
-        return sets.find(1) == sets.find(0);
-    }
+    gnomon::spatial_index index_;
+    gnomon::detail::planar_cloud cloud_;
+    gnomon::detail::scratch<std::int32_t> labels_;
+    gnomon::detail::scratch<gnomon::detail::planar_region> regions_;
 
   private:
-    static gnomon::scan scan_of(const std::function<double(double, double)>& height,
-                                std::uint64_t seed) {
+    static gnomon::scan scan_of(const height_function& height, std::uint64_t seed,
+                                std::size_t points, double length, double gap) {
         gnomon::random_stream random(seed);
         gnomon::scan scan;
         scan.viewpoints = above_ground;
-        for (int i = 0; i < 4000; ++i) {
-            const double x = random.uniform(-10.0, 10.0), y = random.uniform(-4.0, 4.0);
+        while (scan.points.size() < points) {
+            const double x = random.uniform(-0.5 * length, 0.5 * length);
+            const double y = random.uniform(-4.0, 4.0);
+            if (std::abs(x) < 0.5 * gap) continue;
             const Eigen::Vector3d at(x, y, height(x, y));
             scan.points.push_back(at + ground_noise * random.gaussian() *
                                            (at - above_ground).normalized());
@@ -71,11 +74,44 @@ class halves {
         return scan;
     }
 
-    gnomon::spatial_index index_;
-    gnomon::detail::planar_cloud cloud_;
-    gnomon::detail::scratch<std::int32_t> labels_;
-    gnomon::detail::scratch<gnomon::detail::planar_region> regions_;
-    std::array<std::vector<point_index>, 2> members_;
+    std::vector<std::vector<point_index>> members_;
+};
+
+/// Its two halves, left and right.
+class halves : public ground_in_regions {
+  public:
+    explicit halves(const height_function& height, std::uint64_t seed = 1)
+        : ground_in_regions(
+              height, seed, 4000, 20.0, 0.0, 2,
+              [](const Eigen::Vector3d& p) -> std::size_t { return p.y() > 0.0 ? 1 : 0; }) {}
+
+    [[nodiscard]] bool are_one() const {
+        return gnomon::detail::are_of_curved_surface(regions_[0], patch(0), regions_[1], patch(1));
+    }
+    /// Likewise, where they are found by their neighbors.
+    [[nodiscard]] bool are_one_set() const {
+        auto sets = gnomon::detail::curved_surfaces(cloud_, gnomon::knn{.k = 20}(index_), labels_,
+                                                    regions_, gnomon::threads{2});
+        return sets.find(1) == sets.find(0);
+    }
+};
+
+/// Its halves before a gap of 4 m, and behind it.
+class ends : public ground_in_regions {
+  public:
+    explicit ends(const height_function& height, std::uint64_t seed = 1)
+        : ground_in_regions(height, seed, 6000, 30.0, 4.0, 4,
+                            [](const Eigen::Vector3d& p) -> std::size_t {
+                                return (p.x() > 0.0 ? 2 : 0) + (p.y() > 0.0 ? 1 : 0);
+                            }) {}
+
+    /// Of both ends.
+    [[nodiscard]] double dissimilarity() const {
+        auto behind = patch(0), before = patch(2);
+        behind.add(patch(1));
+        before.add(patch(3));
+        return gnomon::detail::dissimilarity_of_curved(behind, before, 0.05);
+    }
 };
 
 TEST(curved_pieces, are_one_where_the_surface_is_curved) {
@@ -111,53 +147,6 @@ TEST(curved_pieces, survive_flat_and_thin_regions) {
     const gnomon::detail::planar_region none;
     EXPECT_FALSE(gnomon::detail::are_of_curved_surface(none, {}, none, {}));
 }
-
-/// A ground of 30 by 8 m in four regions, two before and two behind a gap of 4 m.
-class ends {
-  public:
-    explicit ends(const std::function<double(double, double)>& height, std::uint64_t seed = 1)
-        : index_(scan_of(height, seed)),
-          cloud_(index_, gnomon::constant_noise{ground_noise}, gnomon::sequential{}) {
-        for (std::size_t i = 0; i < index_.size(); ++i) {
-            const std::size_t r = (index_[i].x() > 0.0 ? 2u : 0u) + (index_[i].y() > 0.0 ? 1u : 0u);
-            members_[r].push_back(static_cast<point_index>(i));
-            cloud_.add(i, regions_[r].sums);
-        }
-        for (auto& r : regions_) r.fit = r.sums.fit();
-    }
-
-    [[nodiscard]] gnomon::detail::surface_patch patch(std::size_t region) const {
-        return gnomon::detail::patch_of(cloud_, regions_[region], members_[region]);
-    }
-    /// Of the two ends.
-    [[nodiscard]] double dissimilarity() const {
-        auto behind = patch(0), before = patch(2);
-        behind.add(patch(1));
-        before.add(patch(3));
-        return gnomon::detail::dissimilarity_of_curved(behind, before, 0.05);
-    }
-
-  private:
-    static gnomon::scan scan_of(const std::function<double(double, double)>& height,
-                                std::uint64_t seed) {
-        gnomon::random_stream random(seed);
-        gnomon::scan scan;
-        scan.viewpoints = above_ground;
-        while (scan.points.size() < 6000) {
-            const double x = random.uniform(-15.0, 15.0), y = random.uniform(-4.0, 4.0);
-            if (std::abs(x) < 2.0) continue;
-            const Eigen::Vector3d at(x, y, height(x, y));
-            scan.points.push_back(at + ground_noise * random.gaussian() *
-                                           (at - above_ground).normalized());
-        }
-        return scan;
-    }
-
-    gnomon::spatial_index index_;
-    gnomon::detail::planar_cloud cloud_;
-    std::array<gnomon::detail::planar_region, 4> regions_;
-    std::array<std::vector<point_index>, 4> members_;
-};
 
 double road_height(double y) { return 0.1 * (1.0 - y * y / 16.0); }
 

@@ -113,7 +113,7 @@ inline constexpr angle widest_crease = degrees(30);  // numerical
     return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
 }
 
-/// Whether the plane of a region is nearly that of a larger whole.
+/// Whether the plane of a region is nearly parallel to that of a larger whole.
 [[nodiscard]] bool is_nearly_parallel(const auto& fit, const region_plane& whole) {
     constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
     return std::abs(dot(fit.plane.normal, whole.plane.normal)) >= min_cosine(max_angle);
