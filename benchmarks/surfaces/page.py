@@ -49,7 +49,9 @@ SECTIONS = [
      "them that are missing lie beyond gaps in which free space or too little was observed, or reach onto a pavement. The second table lists how much each kind of surface loses: "
      "openings of a facade lie in one plane behind its wall, and are merged as one surface behind an occluder; a wall "
      "of which the lidar sees the pieces on both sides of an opening alone is several, as there is free space between; the "
-     "wheels of vehicles stand out of their sides by 2 cm, a standard deviation. Ground normals are those of `robust_ray_ls` on `ray_knn`, with the noise of the "
+     "wheels of vehicles stand out of their sides by 2 cm, a standard deviation. \"From the truth\" is the IoU of a segmentation "
+     "without any error: the true surfaces, in the parts that no neighbors connect, merged as the chain does. No segmentation reaches more by these rules of merging; "
+     "with 64 beams and openings they do not allow 0.95. Of curved roads it is lower than that of the chain, as these parts are merged by planes. Ground normals are those of `robust_ray_ls` on `ray_knn`, with the noise of the "
      "chain: wanted are errors of 5 degrees, root mean square, and a median of 1 with 32 beams."),
     ("noise", "Measured noise",
      "`measure_noise` without parameters. Errors are those of the standard deviation: the root of the mean "

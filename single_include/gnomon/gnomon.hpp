@@ -11832,14 +11832,23 @@ struct robust_pca {
 /// @file
 /// The regression of `plane_eif` on the inliers among the neighbors. Near edges, and where scan
 /// lines are far apart, neighbors are on several surfaces. If the regression on all of them leaves
-/// outliers, planes through the point and pairs of neighbors are tried, and the plane of least cost
-/// is fitted again to its inliers (MSAC: Torr and Zisserman 2000). Each quadrant around the ray
-/// counts the same in this cost: otherwise a plane through the scan line of the point and a car
-/// next to it would be better than the road, of which few other points are near.
+/// outliers, planes through the point and pairs of neighbors are tried (MSAC: Torr and Zisserman
+/// 2000). Such a plane has the noise of three points; each that is better than all before it is
+/// fitted again to its inliers, and the best of these wins (Chum, Matas and Kittler 2003). Each
+/// quadrant around the ray counts the same in the cost of a plane: otherwise one through the scan
+/// line of the point and a car next to it would be better than the road, of which few other points
+/// are near.
 
 namespace gnomon {
 
 namespace detail {
+
+/// The plane of a regression, relative to the view point.
+[[nodiscard]] inline plane plane_of(const ray_regression& r) {
+    const Eigen::Vector3d m = r.solution();
+    const double size = length(m);
+    return {scaled(1.0 / size, m), r.range() / size};
+}
 
 /// Points relative to a view point, and their distances from planes. (A template for compile time
 /// only.)
@@ -11879,19 +11888,17 @@ class seen_points {
         return static_cast<double>(inliers) / static_cast<double>(size());
     }
 
-    /// The plane of least cost through the point and two of its neighbors; without a normal, if no
-    /// pair determines one. Of more than 256 neighbors, those at even distances in their order
-    /// count. Ends when, with the share of inliers of the best plane so far, all compared pairs
-    /// contain an outlier with a probability of at most 0.1 % (Fischler and Bolles 1981).
+    /// Of the planes through the point and two of its neighbors, fitted again to their inliers, the
+    /// one of least cost; without a normal, if no pair determines one. Of more than 256 neighbors,
+    /// those at even distances in their order count. Ends when, with the share of inliers of the
+    /// best plane so far, all compared pairs contain an outlier with a probability of at most 0.1 %
+    /// (Fischler and Bolles 1981).
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
         constexpr double failure_probability = 1e-3;  // of no unit; as that of 60 trials, below
-        const std::size_t step = (size() + most_counted - 1) / most_counted;
-        const weights weight = weights_by_quadrant(step);
-        double whole = 0.0;
-        for (const double w : weight) whole += w;
+        const plane_costs cost(*this);
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
-        double least = std::numeric_limits<double>::infinity();
+        double least = std::numeric_limits<double>::infinity(), least_tried = least;
         auto needed = static_cast<double>(trials);
         for (int drawn = 0, compared = 0; drawn < trials && compared < needed; ++drawn) {
             const Vector a = difference(at(random.below(size())), x_);
@@ -11900,54 +11907,79 @@ class seen_points {
             const double area = length(n);
             constexpr double elongated = 0.2;  // the sine of 12 degrees: performance only
             if (!(area > elongated * length(a) * length(b))) continue;
-            const plane candidate{scaled(1.0 / area, n), dot(n, x_) / area};
-            if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
+            const plane tried{scaled(1.0 / area, n), dot(n, x_) / area};
+            if (!(std::abs(tried.offset) > grazing_cosine * length(x_))) continue;
             ++compared;
-            double cost = 0.0;
-            for (std::size_t j = 0; j * step < size() && cost < least; ++j)
-                cost += weight[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
-            if (!(cost < least)) continue;
-            least = cost;
-            best = candidate;
+            const double of_tried = cost(tried, least_tried);
+            if (!(of_tried < least_tried)) continue;
+            least_tried = of_tried;
             // Pairs are drawn from all neighbors, but planes are compared by quadrant.
-            const double share = std::min(share_on(candidate), std::max(0.0, 1.0 - cost / whole));
+            const double share = std::min(share_on(tried), std::max(0.0, 1.0 - of_tried));
             needed = std::min(needed, std::log(failure_probability) / std::log1p(-share * share));
+            const ray_regression again = regression_on(tried);
+            if (!usable(again.status())) continue;
+            const plane fitted = plane_of(again);
+            const double of_fitted = cost(fitted, least);
+            if (!(of_fitted < least)) continue;
+            least = of_fitted;
+            best = fitted;
         }
         return best;
     }
 
   private:
-    static constexpr std::size_t most_counted = 256;  // performance only
-    using weights = std::array<typename Vector::Scalar, most_counted>;
+    /// The cost of planes, 0 to 1: of the points farther than two standard deviations, and of the
+    /// others by their squared distances; each quadrant around the ray counts the same. (A plane
+    /// between two surfaces has much more within three deviations than within two.)
+    class plane_costs {
+      public:
+        explicit plane_costs(const seen_points& points)
+            : points_(points), step_((points.size() + most_counted - 1) / most_counted) {
+            const ray_plane<Vector> around(scaled(1.0 / length(points.x_), points.x_));
+            scan_line<> line;
+            for (std::size_t j = 0; j < points.size(); j += step_)
+                line.add(around.offset(points.at(j)));
+            line.fit();
+            const auto quadrant = [&](std::size_t j) {
+                return line.quadrant(around.offset(points.at(j * step_)));
+            };
+            std::array<double, 4> counts{};
+            for (std::size_t j = 0; j * step_ < points.size(); ++j) counts[quadrant(j)] += 1.0;
+            const auto seen = std::ranges::count_if(counts, [](double n) { return n > 0.0; });
+            for (std::size_t j = 0; j * step_ < points.size(); ++j)
+                weight_[j] = 1.0 / (counts[quadrant(j)] * static_cast<double>(seen));
+        }
 
-    /// The squared distance of a point from a plane, divided by that of the farthest inlier: three
-    /// standard deviations, of the noise across the plane and of half of it in any direction, for
-    /// errors that are not along the ray (chosen on streets 20,001 to 20,003).
+        /// The cost of a plane, or one that is not less than `least`.
+        [[nodiscard]] double operator()(const plane& of, double least) const {
+            constexpr double most = 2.0;  // chosen on streets 20,001 to 20,012 and rooms
+            double cost = 0.0;
+            for (std::size_t j = 0; j * step_ < points_.size() && cost < least; ++j) {
+                const double d2 = points_.squared_deviation(of, points_.at(j * step_));
+                cost += weight_[j] * std::min(1.0, d2 / (most * most));
+            }
+            return cost;
+        }
+
+      private:
+        static constexpr std::size_t most_counted = 256;  // performance only
+        const seen_points& points_;
+        std::size_t step_;
+        std::array<double, most_counted> weight_{};
+    };
+
+    /// The squared distance of a point from a plane, divided by its variance: that of the noise
+    /// across the plane, and of half of the noise in any direction, for errors that are not along
+    /// the ray (chosen on streets 20,001 to 20,003).
     [[nodiscard]] double squared_deviation(const plane& from, const Vector& x) const {
-        constexpr double most = 3.0, elsewhere = 0.5;
+        constexpr double elsewhere = 0.5;
         const double along = dot(from.normal, x), off = along - from.offset;
         const double r2 = dot(x, x);
-        return off * off * r2 /
-               (most * most * sigma_ * sigma_ * (along * along + elsewhere * elsewhere * r2));
+        return off * off * r2 / (sigma_ * sigma_ * (along * along + elsewhere * elsewhere * r2));
     }
     [[nodiscard]] bool is_inlier(const plane& of, const Vector& x) const {
-        return squared_deviation(of, x) <= 1.0;
-    }
-
-    /// For each neighbor that counts, one over the number of these in its quadrant.
-    [[nodiscard]] weights weights_by_quadrant(std::size_t step) const {
-        const ray_plane<Vector> around(scaled(1.0 / length(x_), x_));
-        scan_line<> line;
-        for (std::size_t j = 0; j < size(); j += step) line.add(around.offset(at(j)));
-        line.fit();
-        const auto quadrant = [&](std::size_t j) {
-            return line.quadrant(around.offset(at(j * step)));
-        };
-        std::array<typename Vector::Scalar, 4> counts{};
-        for (std::size_t j = 0; j * step < size(); ++j) counts[quadrant(j)] += 1.0;
-        weights weight{};
-        for (std::size_t j = 0; j * step < size(); ++j) weight[j] = 1.0 / counts[quadrant(j)];
-        return weight;
+        constexpr double most = 3.0;
+        return squared_deviation(of, x) <= most * most;
     }
 
     [[nodiscard]] Vector at(std::size_t j) const { return difference(neighbors_[j], viewpoint_); }
@@ -11991,29 +12023,18 @@ struct robust_ray_ls {
         constexpr double nearly_all = 0.95;  // chosen on streets 20,001 to 20,003
         bool is_inlier = true;
         if (usable(regression.status())) {
-            plane found = plane_of(regression);
+            plane found = detail::plane_of(regression);
             if (!points.has_point_on(found) || points.share_on(found) < nearly_all) {
                 const plane best = points.consensus(trials, seed);
                 if (detail::has_length(best.normal)) found = best;
-                for (int refit = 0; refit < 2; ++refit) {
-                    regression = points.regression_on(found);
-                    if (!usable(regression.status())) break;
-                    found = plane_of(regression);
-                }
+                regression = points.regression_on(found);
+                if (usable(regression.status())) found = detail::plane_of(regression);
                 is_inlier = points.has_point_on(found) && points.share_on(found) >= 0.5;
             }
         }
         auto belief = detail::belief_of(regression, ray, sigma, min_aspect_ratio);
         if (belief.trust == trust::good && !is_inlier) belief.trust = trust::weak;
         return belief;
-    }
-
-  private:
-    /// The plane relative to the view point.
-    [[nodiscard]] static plane plane_of(const detail::ray_regression& r) {
-        const Eigen::Vector3d m = r.solution();
-        const double size = detail::length(m);
-        return {detail::scaled(1.0 / size, m), r.range() / size};
     }
 };
 
@@ -16674,9 +16695,9 @@ struct observation_count {
 };
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
-/// a gap must be; narrow gaps are closed without evidence (merge_occluded_options::max_gap), and
-/// one line on which free space was observed keeps any gap open, unless the policy merges even
-/// there.
+/// a gap must be, but for lines on which mostly the surface itself was seen; narrow gaps are closed
+/// without evidence (merge_occluded_options::max_gap), and one line on which free space was
+/// observed keeps any gap open, unless the policy merges even there.
 template <class M>
 concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
@@ -16698,18 +16719,23 @@ struct liberal {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its observations are in favor of merging than against
-/// it. Observations on the surface are never against it; a line without observations counts as
-/// unobserved.
+/// What the observations along a line are evidence for.
+enum class verdict : char { against, none, in_favor };
+
+/// The verdict of a line: in favor of merging, if more of its observations are than against it.
+/// Observations on the surface are never against it; a line with mostly these is no evidence. A
+/// line without observations counts as unobserved.
 template <merge_policy M>
-[[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
-    if (seen.total() == 0) return policy(observation::unobserved);
-    std::size_t against = 0;
-    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
+[[nodiscard]] verdict verdict_of(const M& policy, const observation_count& seen) {
+    if (seen.total() == 0)
+        return policy(observation::unobserved) ? verdict::in_favor : verdict::against;
+    const std::size_t on_surface = seen[observation::on_surface];
+    std::size_t against = 0, in_favor = policy(observation::on_surface) ? on_surface : 0;
     for (const observation s : {observation::unobserved, observation::occluded,
                                 observation::free_space, observation::out_of_view})
         (policy(s) ? in_favor : against) += seen[s];
-    return in_favor > against;
+    if (in_favor > against) return verdict::in_favor;
+    return 2 * on_surface > seen.total() ? verdict::none : verdict::against;
 }
 
 /// Whether a line alone keeps a gap open: free space was observed on it, and the surface itself not
@@ -17529,8 +17555,8 @@ struct gap_side {
     }
 };
 
-/// Examines the gap between two segments. It is closed if it is narrow, or the policy accepts most
-/// of the lines across it; unless one of them alone keeps it open.
+/// Examines the gap between two segments. It is closed if it is narrow, or more of the lines across
+/// it are in favor of that than against it; unless one of them alone keeps it open.
 /// @param options  `merge_occluded_options`, which are valid
 /// Complexity: O(points of both * boundary pairs), and O(view points) for each pixel of the lines.
 template <merge_policy M>
@@ -17540,7 +17566,7 @@ template <merge_policy M>
     examined_gap gap{{a.number, b.number}, {}};
     append_boundary_pairs(gap.lines, points, a.points, b.points,
                           {a.centroid(points), b.centroid(points)}, options.boundary_pairs);
-    std::size_t accepted = 0;
+    std::size_t in_favor = 0, against = 0;
     bool is_kept_open = false;
     for (const boundary_pair& line : gap.lines) {
         const Eigen::Vector3d v =
@@ -17548,10 +17574,12 @@ template <merge_policy M>
         const observation_count seen = visible.between(points[line.first], points[line.second], v);
         gap.seen += seen;
         is_kept_open = is_kept_open || keeps_open(policy, seen);
-        accepted += accepts(policy, seen) ? 1 : 0;
+        const verdict of_line = verdict_of(policy, seen);
+        in_favor += of_line == verdict::in_favor ? 1 : 0;
+        against += of_line == verdict::against ? 1 : 0;
     }
     const bool is_narrow = coplanar_distance(gap.lines) < options.max_gap;
-    gap.is_closed = !is_kept_open && (is_narrow || 2 * accepted > gap.lines.size());
+    gap.is_closed = !is_kept_open && (is_narrow || in_favor > against);
     return gap;
 }
 

@@ -100,6 +100,26 @@ TEST(robust_ray_ls, counts_each_quadrant_alike) {
     EXPECT_GT(near, trials * 9 / 10);
 }
 
+/// Where a road meets a car, a plane between the two is within three standard deviations of most
+/// points near the edge; the road is within two of its own.
+TEST(robust_ray_ls, takes_no_plane_between_two_surfaces) {
+    gnomon::random_stream random(5);
+    const Eigen::Vector3d up(0.0, 0.0, 1.0), front(1.0, 0.0, 0.0);
+    int near = 0;
+    constexpr int trials = 300;
+    for (int trial = 0; trial < trials; ++trial) {
+        clouds::cloud points{seen({5.92, 0.0, -2.0}, -up, 2.0, random)};
+        for (int i = 0; i < 12; ++i) {
+            const double y = random.uniform(-0.3, 0.3);
+            points.push_back(seen({random.uniform(5.7, 6.0), y, -2.0}, -up, 2.0, random));
+            points.push_back(seen({6.0, y, random.uniform(-2.0, -1.7)}, front, 6.0, random));
+        }
+        near += degrees_off(robust_normal(points[0], std::span(points).subspan(1), lidar_place),
+                            up) < 15.0;
+    }
+    EXPECT_GT(near, trials * 8 / 10);
+}
+
 TEST(robust_ray_ls, of_a_stray_point_is_weak) {
     gnomon::random_stream random(4);
     clouds::cloud wall;

@@ -139,6 +139,20 @@ TEST(merge_occluded, is_not_kept_from_merging_by_a_far_point) {
     }
 }
 
+/// A column hides the gap above the middle, next to which the lines are; at the middle and below,
+/// the wall itself is seen, but is unlabeled.
+TEST(merge_occluded, counts_no_line_on_which_the_surface_was_seen) {
+    sim::scene world;
+    looks::add_wall(world, -2.0, 2.0);
+    world.add_object("column", sim::box{0.1, 0.3, 1.5}, sim::at(1.55, 0.0, 0.77));
+    const auto seen = looks::look_at(world);
+    const auto halves = seen.parts([](const Eigen::Vector3d& p, std::int32_t object) {
+        return object != 0 || std::abs(p.y()) < 0.3 ? unlabeled : p.y() < 0.0 ? 0 : 1;
+    });
+    ASSERT_EQ(halves.size(), 2u);
+    EXPECT_EQ(after_merging(seen, halves), (remaining{1, 1}));
+}
+
 /// A third of the gap is seen through, past the column.
 TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
     sim::scene world = looks::opened(0.9);

@@ -9,7 +9,7 @@
 namespace {
 
 using gnomon::conservative, gnomon::liberal, gnomon::observation, gnomon::observation_count,
-    gnomon::detail::keeps_open;
+    gnomon::detail::keeps_open, gnomon::detail::verdict;
 
 static_assert(gnomon::merge_policy<gnomon::conservative>);
 static_assert(gnomon::merge_policy<gnomon::liberal>);
@@ -54,17 +54,20 @@ TEST(merge_policies, accept_the_observations_of_the_thesis) {
 
 /// Positions where the surface itself is seen are evidence neither for nor against a merge.
 TEST(merge_policies, weigh_the_places_of_a_line) {
-    const auto accepted = [](const auto& policy, std::size_t unseen, std::size_t closer,
-                             std::size_t level, std::size_t farther) {
-        return gnomon::detail::accepts(policy, {{unseen, closer, level, farther}});
+    const auto of = [](const auto& policy, std::size_t unseen, std::size_t closer,
+                       std::size_t level, std::size_t farther) {
+        return gnomon::detail::verdict_of(policy, {{unseen, closer, level, farther}});
     };
-    EXPECT_TRUE(accepted(conservative{}, 0, 1, 8, 0));
-    EXPECT_TRUE(accepted(conservative{}, 3, 4, 0, 0));
-    EXPECT_FALSE(accepted(conservative{}, 4, 4, 0, 0)) << "more than half, not half";
-    EXPECT_FALSE(accepted(conservative{}, 0, 0, 5, 0));
-    EXPECT_TRUE(accepted(liberal{}, 4, 0, 0, 0));
-    EXPECT_FALSE(accepted(conservative{}, 0, 0, 0, 0));
-    EXPECT_TRUE(accepted(liberal{}, 0, 0, 0, 0));
+    EXPECT_EQ(of(conservative{}, 0, 1, 8, 0), verdict::in_favor);
+    EXPECT_EQ(of(conservative{}, 3, 4, 0, 0), verdict::in_favor);
+    EXPECT_EQ(of(conservative{}, 4, 4, 0, 0), verdict::against) << "more than half, not half";
+    EXPECT_EQ(of(conservative{}, 0, 0, 5, 0), verdict::none);
+    EXPECT_EQ(of(conservative{}, 4, 0, 5, 0), verdict::none);
+    EXPECT_EQ(of(conservative{}, 5, 0, 5, 0), verdict::against);
+    EXPECT_EQ(of(liberal{}, 4, 0, 0, 0), verdict::in_favor);
+    EXPECT_EQ(of(liberal{}, 0, 0, 9, 0), verdict::in_favor);
+    EXPECT_EQ(of(conservative{}, 0, 0, 0, 0), verdict::against);
+    EXPECT_EQ(of(liberal{}, 0, 0, 0, 0), verdict::in_favor);
 }
 
 /// One position in free space keeps a gap open if the policy does not merge across free space.

@@ -43,9 +43,9 @@ struct observation_count {
 };
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
-/// a gap must be; narrow gaps are closed without evidence (merge_occluded_options::max_gap), and
-/// one line on which free space was observed keeps any gap open, unless the policy merges even
-/// there.
+/// a gap must be, but for lines on which mostly the surface itself was seen; narrow gaps are closed
+/// without evidence (merge_occluded_options::max_gap), and one line on which free space was
+/// observed keeps any gap open, unless the policy merges even there.
 template <class M>
 concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
@@ -67,18 +67,23 @@ struct liberal {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its observations are in favor of merging than against
-/// it. Observations on the surface are never against it; a line without observations counts as
-/// unobserved.
+/// What the observations along a line are evidence for.
+enum class verdict : char { against, none, in_favor };
+
+/// The verdict of a line: in favor of merging, if more of its observations are than against it.
+/// Observations on the surface are never against it; a line with mostly these is no evidence. A
+/// line without observations counts as unobserved.
 template <merge_policy M>
-[[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
-    if (seen.total() == 0) return policy(observation::unobserved);
-    std::size_t against = 0;
-    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
+[[nodiscard]] verdict verdict_of(const M& policy, const observation_count& seen) {
+    if (seen.total() == 0)
+        return policy(observation::unobserved) ? verdict::in_favor : verdict::against;
+    const std::size_t on_surface = seen[observation::on_surface];
+    std::size_t against = 0, in_favor = policy(observation::on_surface) ? on_surface : 0;
     for (const observation s : {observation::unobserved, observation::occluded,
                                 observation::free_space, observation::out_of_view})
         (policy(s) ? in_favor : against) += seen[s];
-    return in_favor > against;
+    if (in_favor > against) return verdict::in_favor;
+    return 2 * on_surface > seen.total() ? verdict::none : verdict::against;
 }
 
 /// Whether a line alone keeps a gap open: free space was observed on it, and the surface itself not

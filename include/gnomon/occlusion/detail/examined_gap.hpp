@@ -42,8 +42,8 @@ struct gap_side {
     }
 };
 
-/// Examines the gap between two segments. It is closed if it is narrow, or the policy accepts most
-/// of the lines across it; unless one of them alone keeps it open.
+/// Examines the gap between two segments. It is closed if it is narrow, or more of the lines across
+/// it are in favor of that than against it; unless one of them alone keeps it open.
 /// @param options  `merge_occluded_options`, which are valid
 /// Complexity: O(points of both * boundary pairs), and O(view points) for each pixel of the lines.
 template <merge_policy M>
@@ -53,7 +53,7 @@ template <merge_policy M>
     examined_gap gap{{a.number, b.number}, {}};
     append_boundary_pairs(gap.lines, points, a.points, b.points,
                           {a.centroid(points), b.centroid(points)}, options.boundary_pairs);
-    std::size_t accepted = 0;
+    std::size_t in_favor = 0, against = 0;
     bool is_kept_open = false;
     for (const boundary_pair& line : gap.lines) {
         const Eigen::Vector3d v =
@@ -61,10 +61,12 @@ template <merge_policy M>
         const observation_count seen = visible.between(points[line.first], points[line.second], v);
         gap.seen += seen;
         is_kept_open = is_kept_open || keeps_open(policy, seen);
-        accepted += accepts(policy, seen) ? 1 : 0;
+        const verdict of_line = verdict_of(policy, seen);
+        in_favor += of_line == verdict::in_favor ? 1 : 0;
+        against += of_line == verdict::against ? 1 : 0;
     }
     const bool is_narrow = coplanar_distance(gap.lines) < options.max_gap;
-    gap.is_closed = !is_kept_open && (is_narrow || 2 * accepted > gap.lines.size());
+    gap.is_closed = !is_kept_open && (is_narrow || in_favor > against);
     return gap;
 }
 
