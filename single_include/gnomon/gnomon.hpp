@@ -11972,13 +11972,13 @@ class seen_points {
     /// across the plane, and of half of the noise in any direction, for errors that are not along
     /// the ray (chosen on streets 20,001 to 20,003).
     [[nodiscard]] double squared_deviation(const plane& from, const Vector& x) const {
-        constexpr double elsewhere = 0.5;
+        constexpr double elsewhere = 0.5;  // of the noise along the ray
         const double along = dot(from.normal, x), off = along - from.offset;
         const double r2 = dot(x, x);
         return off * off * r2 / (sigma_ * sigma_ * (along * along + elsewhere * elsewhere * r2));
     }
     [[nodiscard]] bool is_inlier(const plane& of, const Vector& x) const {
-        constexpr double most = 3.0;
+        constexpr double most = 3.0;  // deviations: 99.7 % of a normal distribution
         return squared_deviation(of, x) <= most * most;
     }
 
