@@ -72,7 +72,8 @@ std::vector<rec::view> versions_of(const sim::object_view& shot,
 
 room_method thesis_grouping(const effort& much, std::uint64_t seed) {
     return [model = learned(much, seed)](const gnomon::scan& scan) {
-        const auto seen = rec::perceive_views(scan, {.noise = noise_in_rooms}, gnomon::threads{});
+        const auto seen = rec::perceive_views(
+            scan, {.noise = noise_in_rooms, .divergence = wide_beam}, gnomon::threads{});
         std::vector<found_object> found;
         for (std::size_t v = 0; v < seen.views.size(); ++v) {
             const rec::decision d = model.decide(seen.views[v]);

@@ -24,9 +24,9 @@ labeled.ply, recognized.png and objects.json into DIR.
   --floor H            height of the floor along --up [m], where SCAN does not show it
   --viewpoint X,Y,Z    position of the sensor (from SCAN, else 0,0,0)
   --noise M            standard deviation of the ranges (measured on SCAN)
-  --divergence MRAD    full angle of beams that are wider than rays are apart [mrad]: what they
-                       return at silhouettes of objects is left out, at least one ray at each
-                       edge, so that thin legs may vanish; try without it first (0)
+  --divergence MRAD    full angle of wide beams [mrad]: the mixed points that they return between
+                       two surfaces are left out, which connect objects to what is behind them
+                       (0: of narrow beams, none is left out)
   --min-probability P  views that are less certain are background (as learned, 0.9)
   --threads N          0 for all there are (0)
   --help               this text

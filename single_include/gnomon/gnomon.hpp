@@ -39,6 +39,7 @@
 #include <variant>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <locale.h>
 
@@ -20266,6 +20267,321 @@ namespace gnomon::detail {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/filters/detail/ray_sphere.hpp ---------------------------------------------------
+
+/// @file
+/// Which rays of a scan are next to each other, at whatever range, and where surfaces end.
+
+namespace gnomon::detail {
+
+/// The rays of a scan as points at 1 m from their view points, where near ones are seen side by
+/// side. Distances [m] there are about angles [rad].
+class ray_sphere {
+  public:
+    template <class R, execution X, class Proj>
+    ray_sphere(const R& points, double max_jump, const X& run, Proj projection)
+        : max_jump_(max_jump) {
+        const position_view<R, Proj> position(points, projection);
+        const std::size_t n = position.size();
+        std::vector<Eigen::Vector3d> ends(n);
+        rays_.resize(n);
+        ranges_.resize(n);
+        with_table_of(points, [&](const viewpoint_table& from) {
+            const Eigen::Vector3d origin = n > 0 ? from[0] : Eigen::Vector3d(0.0, 0.0, 0.0);
+            for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const Eigen::Vector3d ray = difference(position[i], from[i]);
+                    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+                    ranges_[i] = length(ray);
+                    rays_[i] = scaled(has_length(ray) ? 1.0 / ranges_[i] : nan, ray);
+                    // Points without a direction are not finite here, so in no index.
+                    ends[i] = combined(1.0, difference(from[i], origin), 1.0, rays_[i]);
+                }
+            });
+        });
+        index_.rebuild(ends, run);
+    }
+
+    [[nodiscard]] std::size_t size() const { return index_.size(); }
+    [[nodiscard]] bool has_ray(std::size_t i) const { return index_.is_finite(i); }
+
+    /// The end of the ray of point i at 1 m from its view point, from some origin.
+    [[nodiscard]] Eigen::Vector3d end_of(std::size_t i) const { return index_[i]; }
+
+    /// The direction of the ray of point i, of length 1, and its range [m].
+    [[nodiscard]] const Eigen::Vector3d& ray_of(std::size_t i) const { return rays_[i]; }
+    [[nodiscard]] double range_of(std::size_t i) const { return ranges_[i]; }
+
+    /// The points at most this far from point i on the sphere, itself among them.
+    [[nodiscard]] auto within(std::size_t i, double reach) const {
+        return index_.within(index_[i], reach);
+    }
+
+    /// The distance to the k-th other ray; infinite where there are fewer.
+    [[nodiscard]] double distance_of(std::size_t i, std::size_t k) const {
+        const auto nearest = index_.nearest(index_[i], k + 1);
+        return nearest.size() > k ? std::sqrt(nearest[k].squared_distance)
+                                  : std::numeric_limits<double>::infinity();
+    }
+
+    /// Whether the surface of point i goes on around it: no sector without one of its points is
+    /// wider than `widest_sector`.
+    [[nodiscard]] bool is_surrounded(std::size_t i, double reach) const {
+        const Eigen::Vector3d u = orthogonal(rays_[i]), v = cross(rays_[i], u);
+        scratch<double> azimuths;
+        for (const neighbor& q : within(i, reach)) {
+            // Other echoes of the same ray have no direction from it.
+            if (q.squared_distance < same_ray * same_ray) continue;
+            if (std::abs(ranges_[q.index] - ranges_[i]) > max_jump_) continue;
+            azimuths.push_back(std::atan2(dot(rays_[q.index], v), dot(rays_[q.index], u)));
+        }
+        if (azimuths.empty()) return false;
+        std::sort(azimuths.begin(), azimuths.end());
+        double widest = azimuths.front() + 2.0 * std::numbers::pi - azimuths.back();
+        for (std::size_t k = 1; k < azimuths.size(); ++k)
+            widest = std::max(widest, azimuths[k] - azimuths[k - 1]);
+        return widest <= widest_sector.radians();
+    }
+
+    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
+    /// simulation::furniture_models(), seeds 1 to 3.
+    static constexpr double usual_jump = 0.30;
+    static constexpr double same_ray = 1e-6;  ///< rays closer together are one [rad]; rounding
+
+  private:
+    // A ray of a raster has neighbors in four directions, 90 degrees apart; and rounding and
+    // jitter.
+    static constexpr angle widest_sector = degrees(100.0);
+
+    double max_jump_;
+    scratch<Eigen::Vector3d> rays_;  // unit vectors
+    scratch<double> ranges_;         // [m]
+    spatial_index index_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/filters/detail/raster_reach.hpp -------------------------------------------------
+
+/// @file
+/// How far apart the rays of a scan are, around each of them.
+
+namespace gnomon::detail {
+
+/// How far apart the rays of a scan are in the wider of its directions [rad], with a margin of up
+/// to a quarter: around most rays at least, and where they are up to twice as sparse as there,
+/// as far from the axis of a rotating scanner.
+class raster_reach {
+  public:
+    template <execution X>
+    raster_reach(const ray_sphere& rays, const X& run) {
+        const std::size_t thinning = std::max<std::size_t>(1, rays.size() / about);
+        scratch<std::size_t> some;
+        for (std::size_t i = 0; i < rays.size(); ++i)  // at random: steps may hit a border always
+            if (rays.has_ray(i) && random_stream(i).bits() % thinning == 0) some.push_back(i);
+        usual_ = of_most(rays, some);
+        if (usual_ == 0.0) return;
+        std::vector<Eigen::Vector3d> ends(some.size());
+        scratch<double> own(some.size());
+        local_.resize(some.size());
+        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t s = begin; s < end; ++s) {
+                ends[s] = rays.end_of(some[s]);
+                double reach = usual_;
+                while (reach <= sparser * usual_ && !rays.is_surrounded(some[s], reach))
+                    reach *= growth;
+                own[s] = reach;
+            }
+        });
+        sample_.rebuild(ends, run);
+        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+            scratch<double> around;
+            for (std::size_t s = begin; s < end; ++s) {
+                around.clear();
+                for (const neighbor& q : sample_.nearest(ends[s], side_by_side))
+                    if (own[q.index] <= sparser * usual_) around.push_back(own[q.index]);
+                // Where many are at a silhouette, as on thin legs, they contain no information.
+                const bool is_inside = 4 * around.size() > 3 * side_by_side;
+                local_[s] = is_inside ? quantile_of(around, wide_share) : usual_;
+            }
+        });
+    }
+
+    /// Whether rays are next to each other in two directions.
+    [[nodiscard]] bool is_known() const { return usual_ > 0.0; }
+    /// Around ray i, which has a direction. Precondition: it is known.
+    [[nodiscard]] double around(const ray_sphere& rays, std::size_t i) const {
+        return local_[sample_.nearest(rays.end_of(i), 1)[0].index];
+    }
+
+  private:
+    static constexpr std::size_t about = 2000;  // rays looked at; performance
+    static constexpr double growth = 1.25;      // performance: of a reach that is tried
+    // Chosen on furniture_models(), seeds 1 and 2: those of two legs are farther apart. A full turn
+    // of a scan line is 1.4 times as sparse at its equator as its middle.
+    static constexpr double sparser = 2.0;  // ratio of reaches
+    // Samples that determine the local reach, and the share of them that it is enough for: not the
+    // half, as a reach changes from sample to sample. Chosen on the same.
+    static constexpr std::size_t side_by_side = 32;
+    static constexpr double wide_share = 0.75;  // share of these samples
+
+    [[nodiscard]] static double quantile_of(scratch<double>& values, double share) {
+        const auto at = values.begin() +
+                        static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+        std::nth_element(values.begin(), at, values.end());
+        return *at;
+    }
+
+    /// The reach within which most of these rays are surrounded by others; 0 if there is none, as
+    /// in a single scan line.
+    [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some) {
+        scratch<double> nearest, to_many;
+        constexpr std::size_t many = 1000, stride = 32;  // performance only: no raster has as many
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            nearest.push_back(rays.distance_of(some[k], 4));  // formula: the directions of a raster
+            if (k % stride == 0) to_many.push_back(rays.distance_of(some[k], many));
+        }
+        if (nearest.empty()) return 0.0;
+        // [rad] Coarser than any scanner, and smaller where rays form no raster, such as those from
+        // a distant origin where view points are unknown; performance.
+        const double widest = std::min(0.2, quantile_of(to_many, 0.5));
+        for (double reach = growth * std::max(quantile_of(nearest, 0.5), ray_sphere::same_ray);
+             reach < widest; reach *= growth) {
+            const auto surrounded = std::count_if(some.begin(), some.end(), [&](std::size_t i) {
+                return rays.is_surrounded(i, reach);
+            });
+            if (2 * static_cast<std::size_t>(surrounded) >= some.size()) return reach;
+        }
+        return 0.0;
+    }
+
+    double usual_ = 0.0;
+    spatial_index sample_;   // some rays,
+    scratch<double> local_;  // and the reach around each
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/filters/remove_mixed_points.hpp -------------------------------------------------
+
+/// @file
+/// Removes mixed points (mixed pixels, flying pixels; the skimmed points of Klasing 2010, Sec.
+/// 5.8.4): a beam that hits two surfaces at once returns a range between them, where nothing is.
+/// Chains of such points connect an object to what is behind it, so grouping by distance requires
+/// scans without them:
+///
+///     auto kept = gnomon::remove_mixed_points(scan, {.divergence = gnomon::radians(0.010)});
+///     gnomon::scan seen = gnomon::subset(scan, kept);
+///
+/// A surface that is seen at grazing incidence has neighboring ranges as different as those of two
+/// surfaces, but inverse ranges of a plane are linear in the direction of the ray: points on a
+/// plane are kept at any incidence. All true points at edges are kept as well, those that make
+/// surfaces look too wide among them: remove_silhouettes() removes these.
+
+namespace gnomon {
+
+/// Between which surfaces points are mixed.
+struct mixed_point_options {
+    angle divergence = radians(0.010);  ///< full angle of the beams; that of wide laser beams
+    noise_curve noise = constant_noise{0.005};  ///< along the rays
+    /// Ranges that differ by less [m], or by less than six standard deviations of the noise, belong
+    /// to one surface. Chosen on rooms of simulation::scenes::furnished_room(), seeds 1 to 30.
+    double min_step = 0.03;
+
+    /// @throws std::invalid_argument  unless divergence is from 0 to 90 degrees and min_step >= 0
+    void require_valid() const {
+        detail::require(divergence >= degrees(0.0) && divergence <= degrees(90.0),
+                        "remove_mixed_points: the divergence must be from 0 to 90 degrees");
+        detail::require(min_step >= 0.0,
+                        "remove_mixed_points: min_step must not be negative or NaN");
+    }
+};
+
+namespace detail {
+
+/// The root mean square of ranges about the plane that fits them best [m], of rays that are next to
+/// ray i. On a plane, the inverse range is linear in the direction of the ray.
+/// @param near  neighbors in `rays`, ray i among them
+[[nodiscard]] inline double rms_about_plane(const ray_sphere& rays, std::size_t i,
+                                            const auto& near) {
+    const Eigen::Vector3d ray = rays.ray_of(i), u = orthogonal(ray), v = cross(ray, u);
+    Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();  // of products of 1, u, v and inverse range
+    for (const neighbor& q : near) {
+        const Eigen::Vector3d way = rays.ray_of(q.index);
+        const Eigen::Vector4d row(1.0, dot(way, u), dot(way, v), 1.0 / rays.range_of(q.index));
+        sums += row * row.transpose();
+    }
+    sums /= sums(0, 0);
+    const Eigen::Vector3d mean = sums.block<3, 1>(1, 0);
+    const Eigen::Matrix3d scatter = sums.block<3, 3>(1, 1) - mean * mean.transpose();
+    Eigen::Matrix2d directions = scatter.block<2, 2>(0, 0);
+    constexpr double along_line = 1e-9;  // share: directions on a line have a slope, too
+    directions += along_line * directions.trace() * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d to_range = scatter.block<2, 1>(0, 2);
+    const double variance = scatter(2, 2) - to_range.dot(directions.llt().solve(to_range));
+    const double own = rays.range_of(i);
+    return std::sqrt(std::max(0.0, variance)) * own * own;
+}
+
+}  // namespace detail
+
+/// The indices of the points that are not mixed, ascending; see subset.
+///
+/// The neighbors of a point are here the points whose rays are at most half the divergence and the
+/// spacing of rays from its own, as far as both surfaces are seen. A point is mixed if one of them
+/// is nearer than it by a step, another one farther by a step, and the plane that fits all best
+/// leaves a root mean square of half a step.
+///
+/// Points without a ray, not finite or at their view point, are left out. If rays are not next to
+/// each other in two directions, as in a single scan line, all points with a ray are kept.
+///
+/// @param points      any point range of n points [m]; seen from the origin without view points.
+///                    Scans from view points nearer to each other than 2 m mix: use one call per
+///                    scan
+/// @param options     divergence of the beams, noise, and what a step is
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points to keep, for `subset`
+/// @throws std::invalid_argument  if an option is out of range
+/// Complexity: O(n (log n + m)) for m neighbors.
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::vector<point_index> remove_mixed_points(const R& points,
+                                                           const mixed_point_options& options = {},
+                                                           const X& run = {},
+                                                           Proj projection = {}) {
+    options.require_valid();
+    const auto& team = detail::staying(run);
+    const detail::ray_sphere rays(points, detail::ray_sphere::usual_jump, team, projection);
+    const std::size_t n = rays.size();
+    const detail::raster_reach reach(rays, team);
+    const double half_beam = 0.5 * options.divergence.radians();
+    constexpr double deviations = 6.0;  // 4.2 of the difference of two ranges
+    detail::scratch<std::uint8_t> is_kept(n, 0);
+    detail::for_each_chunk(team, n, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!rays.has_ray(i)) continue;
+            is_kept[i] = 1;
+            if (!reach.is_known()) continue;
+            const double own = rays.range_of(i);
+            const double sigma = options.noise.along(detail::scaled(own, rays.ray_of(i)));
+            const double step = std::max(options.min_step, deviations * sigma);
+            const auto near = rays.within(i, half_beam + reach.around(rays, i));
+            double nearest = own, farthest = own;
+            for (const neighbor& q : near) {
+                nearest = std::min(nearest, rays.range_of(q.index));
+                farthest = std::max(farthest, rays.range_of(q.index));
+            }
+            if (nearest < own - step && farthest > own + step &&
+                detail::rms_about_plane(rays, i, near) > 0.5 * step)
+                is_kept[i] = 0;
+        }
+    });
+    return detail::flagged(is_kept);
+}
+
+}  // namespace gnomon
+
 // -------- gnomon/filters/remove_outliers.hpp -----------------------------------------------------
 
 /// @file
@@ -20408,194 +20724,6 @@ template <class R, execution X = sequential, class Proj = std::identity>
 
 }  // namespace gnomon
 
-// -------- gnomon/filters/detail/ray_sphere.hpp ---------------------------------------------------
-
-/// @file
-/// Which rays of a scan are next to each other, at whatever range, and where surfaces end.
-
-namespace gnomon::detail {
-
-/// The rays of a scan as points at 1 m from their view points, where near ones are seen side by
-/// side. Distances [m] there are about angles [rad].
-class ray_sphere {
-  public:
-    template <class R, execution X, class Proj>
-    ray_sphere(const R& points, double max_jump, const X& run, Proj projection)
-        : max_jump_(max_jump) {
-        const position_view<R, Proj> position(points, projection);
-        const std::size_t n = position.size();
-        std::vector<Eigen::Vector3d> ends(n);
-        rays_.resize(n);
-        ranges_.resize(n);
-        with_table_of(points, [&](const viewpoint_table& from) {
-            const Eigen::Vector3d origin = n > 0 ? from[0] : Eigen::Vector3d(0.0, 0.0, 0.0);
-            for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    const Eigen::Vector3d ray = difference(position[i], from[i]);
-                    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-                    ranges_[i] = length(ray);
-                    rays_[i] = scaled(has_length(ray) ? 1.0 / ranges_[i] : nan, ray);
-                    // Points without a direction are not finite here, so in no index.
-                    ends[i] = combined(1.0, difference(from[i], origin), 1.0, rays_[i]);
-                }
-            });
-        });
-        index_.rebuild(ends, run);
-    }
-
-    [[nodiscard]] std::size_t size() const { return index_.size(); }
-    [[nodiscard]] bool has_ray(std::size_t i) const { return index_.is_finite(i); }
-
-    /// The end of the ray of point i at 1 m from its view point, from some origin.
-    [[nodiscard]] Eigen::Vector3d end_of(std::size_t i) const { return index_[i]; }
-
-    /// The points at most this far from point i on the sphere, itself among them.
-    [[nodiscard]] auto within(std::size_t i, double reach) const {
-        return index_.within(index_[i], reach);
-    }
-
-    /// The distance to the k-th other ray; infinite where there are fewer.
-    [[nodiscard]] double distance_of(std::size_t i, std::size_t k) const {
-        const auto nearest = index_.nearest(index_[i], k + 1);
-        return nearest.size() > k ? std::sqrt(nearest[k].squared_distance)
-                                  : std::numeric_limits<double>::infinity();
-    }
-
-    /// Whether the surface of point i goes on around it: no sector without one of its points is
-    /// wider than `widest_sector`.
-    [[nodiscard]] bool is_surrounded(std::size_t i, double reach) const {
-        const Eigen::Vector3d u = orthogonal(rays_[i]), v = cross(rays_[i], u);
-        scratch<double> azimuths;
-        for (const neighbor& q : within(i, reach)) {
-            // Other echoes of the same ray have no direction from it.
-            if (q.squared_distance < same_ray * same_ray) continue;
-            if (std::abs(ranges_[q.index] - ranges_[i]) > max_jump_) continue;
-            azimuths.push_back(std::atan2(dot(rays_[q.index], v), dot(rays_[q.index], u)));
-        }
-        if (azimuths.empty()) return false;
-        std::sort(azimuths.begin(), azimuths.end());
-        double widest = azimuths.front() + 2.0 * std::numbers::pi - azimuths.back();
-        for (std::size_t k = 1; k < azimuths.size(); ++k)
-            widest = std::max(widest, azimuths[k] - azimuths[k - 1]);
-        return widest <= widest_sector.radians();
-    }
-
-    static constexpr double same_ray = 1e-6;  ///< rays closer together are one [rad]; rounding
-
-  private:
-    // A ray of a raster has neighbors in four directions, 90 degrees apart; and rounding and
-    // jitter.
-    static constexpr angle widest_sector = degrees(100.0);
-
-    double max_jump_;
-    scratch<Eigen::Vector3d> rays_;  // unit vectors
-    scratch<double> ranges_;         // [m]
-    spatial_index index_;
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/filters/detail/raster_reach.hpp -------------------------------------------------
-
-/// @file
-/// How far apart the rays of a scan are, around each of them.
-
-namespace gnomon::detail {
-
-/// How far apart the rays of a scan are in the wider of its directions [rad], with a margin of up
-/// to a quarter: around most rays at least, and where they are up to twice as sparse as there,
-/// as far from the axis of a rotating scanner.
-class raster_reach {
-  public:
-    template <execution X>
-    raster_reach(const ray_sphere& rays, const X& run) {
-        const std::size_t thinning = std::max<std::size_t>(1, rays.size() / about);
-        scratch<std::size_t> some;
-        for (std::size_t i = 0; i < rays.size(); ++i)  // at random: steps may hit a border always
-            if (rays.has_ray(i) && random_stream(i).bits() % thinning == 0) some.push_back(i);
-        usual_ = of_most(rays, some);
-        if (usual_ == 0.0) return;
-        std::vector<Eigen::Vector3d> ends(some.size());
-        scratch<double> own(some.size());
-        local_.resize(some.size());
-        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t s = begin; s < end; ++s) {
-                ends[s] = rays.end_of(some[s]);
-                double reach = usual_;
-                while (reach <= sparser * usual_ && !rays.is_surrounded(some[s], reach))
-                    reach *= growth;
-                own[s] = reach;
-            }
-        });
-        sample_.rebuild(ends, run);
-        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
-            scratch<double> around;
-            for (std::size_t s = begin; s < end; ++s) {
-                around.clear();
-                for (const neighbor& q : sample_.nearest(ends[s], side_by_side))
-                    if (own[q.index] <= sparser * usual_) around.push_back(own[q.index]);
-                // Where many are at a silhouette, as on thin legs, they contain no information.
-                const bool is_inside = 4 * around.size() > 3 * side_by_side;
-                local_[s] = is_inside ? quantile_of(around, wide_share) : usual_;
-            }
-        });
-    }
-
-    /// Whether rays are next to each other in two directions.
-    [[nodiscard]] bool is_known() const { return usual_ > 0.0; }
-    /// Around ray i, which has a direction. Precondition: it is known.
-    [[nodiscard]] double around(const ray_sphere& rays, std::size_t i) const {
-        return local_[sample_.nearest(rays.end_of(i), 1)[0].index];
-    }
-
-  private:
-    static constexpr std::size_t about = 2000;  // rays looked at; performance
-    static constexpr double growth = 1.25;      // performance: of a reach that is tried
-    // Chosen on furniture_models(), seeds 1 and 2: those of two legs are farther apart. A full turn
-    // of a scan line is 1.4 times as sparse at its equator as its middle.
-    static constexpr double sparser = 2.0;  // ratio of reaches
-    // Samples that determine the local reach, and the share of them that it is enough for: not the
-    // half, as a reach changes from sample to sample. Chosen on the same.
-    static constexpr std::size_t side_by_side = 32;
-    static constexpr double wide_share = 0.75;  // share of these samples
-
-    [[nodiscard]] static double quantile_of(scratch<double>& values, double share) {
-        const auto at = values.begin() +
-                        static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-        std::nth_element(values.begin(), at, values.end());
-        return *at;
-    }
-
-    /// The reach within which most of these rays are surrounded by others; 0 if there is none, as
-    /// in a single scan line.
-    [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some) {
-        scratch<double> nearest, to_many;
-        constexpr std::size_t many = 1000, stride = 32;  // performance only: no raster has as many
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            nearest.push_back(rays.distance_of(some[k], 4));  // formula: the directions of a raster
-            if (k % stride == 0) to_many.push_back(rays.distance_of(some[k], many));
-        }
-        if (nearest.empty()) return 0.0;
-        // [rad] Coarser than any scanner, and smaller where rays form no raster, such as those from
-        // a distant origin where view points are unknown; performance.
-        const double widest = std::min(0.2, quantile_of(to_many, 0.5));
-        for (double reach = growth * std::max(quantile_of(nearest, 0.5), ray_sphere::same_ray);
-             reach < widest; reach *= growth) {
-            const auto surrounded = std::count_if(some.begin(), some.end(), [&](std::size_t i) {
-                return rays.is_surrounded(i, reach);
-            });
-            if (2 * static_cast<std::size_t>(surrounded) >= some.size()) return reach;
-        }
-        return 0.0;
-    }
-
-    double usual_ = 0.0;
-    spatial_index sample_;   // some rays,
-    scratch<double> local_;  // and the reach around each
-};
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/filters/remove_silhouettes.hpp --------------------------------------------------
 
 /// @file
@@ -20615,9 +20743,8 @@ namespace gnomon {
 /// What a silhouette is, and how much of a surface next to it is lost.
 struct silhouette_options {
     angle divergence = radians(0.010);  ///< full angle of the beams; that of wide laser beams
-    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
-    /// simulation::furniture_models(), seeds 1 to 3.
-    double max_jump = 0.30;
+    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces.
+    double max_jump = detail::ray_sphere::usual_jump;
 
     /// @throws std::invalid_argument  unless divergence is from 0 to 90 degrees and max_jump >= 0
     void require_valid() const {

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "filters/boards.hpp"
 #include "laws/clouds.hpp"
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/scan.hpp>
@@ -20,61 +21,15 @@
 
 namespace {
 
+using boards::all_of, boards::beam, boards::scan_of, boards::spacing;
 using gnomon::radians;
 using gnomon::remove_silhouettes;
-
-constexpr double beam = 0.010;     // [rad]
-constexpr double spacing = 0.004;  // of rays [rad]
-
-/// What wide beams from the origin return of boards that face it: the mean distance of those that a
-/// beam hits, of which the nearer one hides nothing but what is behind it.
-struct board {
-    double distance, half_width, half_height;  // [m]
-};
-
-/// The distance at which a thin ray hits the first of these boards, or infinity.
-double hit(const std::vector<board>& boards, double y, double z) {
-    for (const board& b : boards)
-        if (std::abs(y * b.distance) <= b.half_width && std::abs(z * b.distance) <= b.half_height)
-            return b.distance;
-    return clouds::infinity;
-}
-
-/// A raster of rays with slopes y and z, of beams that average over `width` [rad].
-gnomon::scan scan_of(const std::vector<board>& boards, double width, int lines = 60) {
-    gnomon::scan scan;
-    scan.viewpoints = Eigen::Vector3d(0, 0, 0);
-    for (int j = -lines; j <= lines; ++j) {
-        for (int i = -60; i <= 60; ++i) {
-            const double y = spacing * (i + 0.3), z = 1.5 * spacing * (j + 0.1);
-            double sum = 0.0, hits = 0.0;
-            for (int b = -2; b <= 2; ++b) {
-                for (int a = -2; a <= 2; ++a) {
-                    const double x = hit(boards, y + 0.25 * a * width, z + 0.25 * b * width);
-                    if (!std::isfinite(x)) continue;
-                    sum += x;
-                    hits += 1.0;
-                }
-            }
-            if (hits == 0.0) continue;
-            const double x = sum / hits;
-            scan.points.emplace_back(x, x * y, x * z);
-        }
-    }
-    return scan;
-}
 
 /// Half the width of the first board as these points show it [m].
 double half_width_of(const gnomon::scan& scan, const std::vector<gnomon::point_index>& kept) {
     double widest = 0.0;
     for (const gnomon::point_index i : kept) widest = std::max(widest, scan.points[i].y());
     return widest;
-}
-
-std::vector<gnomon::point_index> all_of(const gnomon::scan& scan) {
-    std::vector<gnomon::point_index> all(scan.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<gnomon::point_index>(i);
-    return all;
 }
 
 TEST(remove_silhouettes, a_board_is_as_wide_as_it_is) {

@@ -11,8 +11,10 @@
 
 #include <gnomon/core.hpp>
 #include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/simulation.hpp>
 
 namespace rec = gnomon::recognition;
+namespace sim = gnomon::simulation;
 
 namespace {
 
@@ -140,6 +142,38 @@ TEST(perceive_views, degenerate_scans_have_no_views) {
     EXPECT_FALSE(seen.ground);
     ASSERT_EQ(seen.views.size(), 1u);
     EXPECT_FALSE(seen.views[0].ground);
+}
+
+/// Beams that hit a stool and the carton behind it return a chain of points from one to the other.
+TEST(perceive_views, wide_beams_connect_no_objects_if_their_width_is_known) {
+    const gnomon::angle wide = gnomon::radians(0.010);
+    sim::scene world;
+    world.add_object("floor", sim::plane_patch{.length = 6.0, .width = 6.0}, sim::at(2, 0, 0));
+    world.add_object("post", sim::box{0.1, 0.3, 0.8}, sim::at(2.0, 0.0, 0.4));
+    world.add_object("carton", sim::box{0.3, 0.9, 0.9}, sim::at(2.55, 0.0, 0.45));
+    for (const double sigma : {0.005, 0.010}) {
+        const auto truth = sim::simulate(
+            world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0}, sim::scanner{},
+            {.sigma = sigma,
+             .footprint = {.divergence = wide, .sub_rays = 9, .rule = sim::echo_rule::averaged}});
+        // Views with more points of both than those at its edges.
+        const auto connected = [&](gnomon::angle divergence) {
+            const auto seen = rec::perceive_views(truth.scan, {.divergence = divergence});
+            EXPECT_GE(seen.views.size(), 2u);  // the post hides the middle of the carton
+            int of_both = 0;
+            for (std::size_t g = 0; g < seen.groups.size(); ++g) {
+                const auto of = [&](std::int32_t object) {
+                    return std::ranges::count(seen.groups[g], object, [&](gnomon::point_index i) {
+                        return truth.objects[i];
+                    });
+                };
+                of_both += 10 * std::min(of(1), of(2)) > std::max(of(1), of(2));
+            }
+            return of_both;
+        };
+        EXPECT_GE(connected(gnomon::degrees(0.0)), 1) << sigma;
+        EXPECT_EQ(connected(wide), 0) << sigma;
+    }
 }
 
 TEST(perceive_views, options_out_of_range_are_refused) {

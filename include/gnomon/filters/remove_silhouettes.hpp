@@ -34,9 +34,8 @@ namespace gnomon {
 /// What a silhouette is, and how much of a surface next to it is lost.
 struct silhouette_options {
     angle divergence = radians(0.010);  ///< full angle of the beams; that of wide laser beams
-    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
-    /// simulation::furniture_models(), seeds 1 to 3.
-    double max_jump = 0.30;
+    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces.
+    double max_jump = detail::ray_sphere::usual_jump;
 
     /// @throws std::invalid_argument  unless divergence is from 0 to 90 degrees and max_jump >= 0
     void require_valid() const {

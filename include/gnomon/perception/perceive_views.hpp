@@ -36,9 +36,11 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/crop_height.hpp>
+#include <gnomon/filters/remove_mixed_points.hpp>
 #include <gnomon/filters/remove_silhouettes.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/normals/measure_noise.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/perception/detail/object_cells.hpp>
@@ -61,8 +63,9 @@ struct perceive_views_options {
     /// Heights that are left out. Legs without a floor are cut as those on a floor.
     crop_height_options bands{};
     std::optional<noise_curve> noise = std::nullopt;  ///< along the rays; else it is measured
-    /// Full angle of the beams. If not 0, points at silhouettes are removed first, by
-    /// remove_silhouettes(); 0 for narrow beams.
+    /// Full angle of the beams; 0 for narrow ones. If not 0, what they return wrongly is removed
+    /// first: mixed points, by remove_mixed_points(), or, of a single object, for which the gap is
+    /// infinite, points at silhouettes, by remove_silhouettes().
     angle divergence = degrees(0.0);
     double gap = 0.10;          ///< between nearest points of a view, at most [m]; Sec. 5.5.1
     std::size_t min_parts = 1;  ///< views of fewer parts are dropped
@@ -121,15 +124,27 @@ template <class R, class Proj>
     return finite;
 }
 
-/// Those of these points that are at no silhouette, if beams are wide.
+/// Those of these points that wide beams return where a surface is. Objects among others are
+/// connected by mixed points; one that is alone has hardly any, but looks wider than it is.
 template <class R, execution X, class Proj>
-[[nodiscard]] std::vector<point_index> without_silhouettes(const R& points,
-                                                           std::vector<point_index> chosen,
-                                                           angle divergence, const X& run,
-                                                           Proj projection) {
+[[nodiscard]] std::vector<point_index> seen_by_wide_beams(const R& points,
+                                                          std::vector<point_index> chosen,
+                                                          const perceive_views_options& options,
+                                                          const X& run, Proj projection) {
+    const angle divergence = options.divergence;
     if (divergence == degrees(0.0)) return chosen;
-    const auto seen = remove_silhouettes(points, {.divergence = divergence}, run, projection);
-    std::vector<point_index> both;
+    std::vector<point_index> seen, both;
+    if (options.gap < infinite_gap) {
+        mixed_point_options mixed{.divergence = divergence};
+        if (options.noise) {
+            mixed.noise = *options.noise;
+        } else if (const auto measured = measure_noise(points, run, projection); measured.curve) {
+            mixed.noise = *measured.curve;
+        }
+        seen = remove_mixed_points(points, mixed, run, projection);
+    } else {
+        seen = remove_silhouettes(points, {.divergence = divergence}, run, projection);
+    }
     std::ranges::set_intersection(chosen, seen, std::back_inserter(both));
     return both;
 }
@@ -182,9 +197,9 @@ template <class R, execution X = sequential, class Proj = std::identity>
     options.require_valid();
     const auto& team = gnomon::detail::staying(run);
     perceived_views result;
-    const auto kept = detail::without_silhouettes(
+    const auto kept = detail::seen_by_wide_beams(
         points, detail::between_floor_and_ceiling(points, options, result.ground, projection),
-        options.divergence, team, projection);
+        options, team, projection);
     const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                       {.edge = options.cell}, team);
     constexpr std::size_t fewest = 4;  // formula: a plane and a residual

@@ -11,7 +11,7 @@
 ///     if (v.support() > 0.8 && v.explanation() > 0.7) use(pose);
 ///
 /// Points at silhouettes, which wide beams have, are neither surface nor free space: they are
-/// removed from the index first, as perceive_views{.divergence} does, but not from the visibility.
+/// removed from the index first, by remove_silhouettes(), but not from the visibility.
 ///
 /// In no umbrella: include it by name.
 #pragma once

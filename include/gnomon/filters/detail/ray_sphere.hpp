@@ -56,6 +56,10 @@ class ray_sphere {
     /// The end of the ray of point i at 1 m from its view point, from some origin.
     [[nodiscard]] Eigen::Vector3d end_of(std::size_t i) const { return index_[i]; }
 
+    /// The direction of the ray of point i, of length 1, and its range [m].
+    [[nodiscard]] const Eigen::Vector3d& ray_of(std::size_t i) const { return rays_[i]; }
+    [[nodiscard]] double range_of(std::size_t i) const { return ranges_[i]; }
+
     /// The points at most this far from point i on the sphere, itself among them.
     [[nodiscard]] auto within(std::size_t i, double reach) const {
         return index_.within(index_[i], reach);
@@ -87,6 +91,9 @@ class ray_sphere {
         return widest <= widest_sector.radians();
     }
 
+    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
+    /// simulation::furniture_models(), seeds 1 to 3.
+    static constexpr double usual_jump = 0.30;
     static constexpr double same_ray = 1e-6;  ///< rays closer together are one [rad]; rounding
 
   private:

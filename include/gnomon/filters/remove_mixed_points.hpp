@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Removes mixed points (mixed pixels, flying pixels; the skimmed points of Klasing 2010, Sec.
+/// 5.8.4): a beam that hits two surfaces at once returns a range between them, where nothing is.
+/// Chains of such points connect an object to what is behind it, so grouping by distance requires
+/// scans without them:
+///
+///     auto kept = gnomon::remove_mixed_points(scan, {.divergence = gnomon::radians(0.010)});
+///     gnomon::scan seen = gnomon::subset(scan, kept);
+///
+/// A surface that is seen at grazing incidence has neighboring ranges as different as those of two
+/// surfaces, but inverse ranges of a plane are linear in the direction of the ray: points on a
+/// plane are kept at any incidence. All true points at edges are kept as well, those that make
+/// surfaces look too wide among them: remove_silhouettes() removes these.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/filters/detail/flagged.hpp>
+#include <gnomon/filters/detail/raster_reach.hpp>
+#include <gnomon/filters/detail/ray_sphere.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+
+namespace gnomon {
+
+/// Between which surfaces points are mixed.
+struct mixed_point_options {
+    angle divergence = radians(0.010);  ///< full angle of the beams; that of wide laser beams
+    noise_curve noise = constant_noise{0.005};  ///< along the rays
+    /// Ranges that differ by less [m], or by less than six standard deviations of the noise, belong
+    /// to one surface. Chosen on rooms of simulation::scenes::furnished_room(), seeds 1 to 30.
+    double min_step = 0.03;
+
+    /// @throws std::invalid_argument  unless divergence is from 0 to 90 degrees and min_step >= 0
+    void require_valid() const {
+        detail::require(divergence >= degrees(0.0) && divergence <= degrees(90.0),
+                        "remove_mixed_points: the divergence must be from 0 to 90 degrees");
+        detail::require(min_step >= 0.0,
+                        "remove_mixed_points: min_step must not be negative or NaN");
+    }
+};
+
+namespace detail {
+
+/// The root mean square of ranges about the plane that fits them best [m], of rays that are next to
+/// ray i. On a plane, the inverse range is linear in the direction of the ray.
+/// @param near  neighbors in `rays`, ray i among them
+[[nodiscard]] inline double rms_about_plane(const ray_sphere& rays, std::size_t i,
+                                            const auto& near) {
+    const Eigen::Vector3d ray = rays.ray_of(i), u = orthogonal(ray), v = cross(ray, u);
+    Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();  // of products of 1, u, v and inverse range
+    for (const neighbor& q : near) {
+        const Eigen::Vector3d way = rays.ray_of(q.index);
+        const Eigen::Vector4d row(1.0, dot(way, u), dot(way, v), 1.0 / rays.range_of(q.index));
+        sums += row * row.transpose();
+    }
+    sums /= sums(0, 0);
+    const Eigen::Vector3d mean = sums.block<3, 1>(1, 0);
+    const Eigen::Matrix3d scatter = sums.block<3, 3>(1, 1) - mean * mean.transpose();
+    Eigen::Matrix2d directions = scatter.block<2, 2>(0, 0);
+    constexpr double along_line = 1e-9;  // share: directions on a line have a slope, too
+    directions += along_line * directions.trace() * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d to_range = scatter.block<2, 1>(0, 2);
+    const double variance = scatter(2, 2) - to_range.dot(directions.llt().solve(to_range));
+    const double own = rays.range_of(i);
+    return std::sqrt(std::max(0.0, variance)) * own * own;
+}
+
+}  // namespace detail
+
+/// The indices of the points that are not mixed, ascending; see subset.
+///
+/// The neighbors of a point are here the points whose rays are at most half the divergence and the
+/// spacing of rays from its own, as far as both surfaces are seen. A point is mixed if one of them
+/// is nearer than it by a step, another one farther by a step, and the plane that fits all best
+/// leaves a root mean square of half a step.
+///
+/// Points without a ray, not finite or at their view point, are left out. If rays are not next to
+/// each other in two directions, as in a single scan line, all points with a ray are kept.
+///
+/// @param points      any point range of n points [m]; seen from the origin without view points.
+///                    Scans from view points nearer to each other than 2 m mix: use one call per
+///                    scan
+/// @param options     divergence of the beams, noise, and what a step is
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points to keep, for `subset`
+/// @throws std::invalid_argument  if an option is out of range
+/// Complexity: O(n (log n + m)) for m neighbors.
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::vector<point_index> remove_mixed_points(const R& points,
+                                                           const mixed_point_options& options = {},
+                                                           const X& run = {},
+                                                           Proj projection = {}) {
+    options.require_valid();
+    const auto& team = detail::staying(run);
+    const detail::ray_sphere rays(points, detail::ray_sphere::usual_jump, team, projection);
+    const std::size_t n = rays.size();
+    const detail::raster_reach reach(rays, team);
+    const double half_beam = 0.5 * options.divergence.radians();
+    constexpr double deviations = 6.0;  // 4.2 of the difference of two ranges
+    detail::scratch<std::uint8_t> is_kept(n, 0);
+    detail::for_each_chunk(team, n, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!rays.has_ray(i)) continue;
+            is_kept[i] = 1;
+            if (!reach.is_known()) continue;
+            const double own = rays.range_of(i);
+            const double sigma = options.noise.along(detail::scaled(own, rays.ray_of(i)));
+            const double step = std::max(options.min_step, deviations * sigma);
+            const auto near = rays.within(i, half_beam + reach.around(rays, i));
+            double nearest = own, farthest = own;
+            for (const neighbor& q : near) {
+                nearest = std::min(nearest, rays.range_of(q.index));
+                farthest = std::max(farthest, rays.range_of(q.index));
+            }
+            if (nearest < own - step && farthest > own + step &&
+                detail::rms_about_plane(rays, i, near) > 0.5 * step)
+                is_kept[i] = 0;
+        }
+    });
+    return detail::flagged(is_kept);
+}
+
+}  // namespace gnomon
