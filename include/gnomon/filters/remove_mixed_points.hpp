@@ -82,6 +82,43 @@ namespace detail {
     return std::sqrt(std::max(0.0, variance)) * own * own;
 }
 
+/// Whether points of a scan are mixed, one at a time.
+class mixed_point_test {
+  public:
+    template <class R, execution X, class Proj>
+    mixed_point_test(const R& points, const mixed_point_options& options, const X& run,
+                     Proj projection)
+        : options_(options),
+          rays_(points, ray_sphere::usual_jump, run, projection),
+          reach_(rays_, run) {}
+
+    [[nodiscard]] std::size_t size() const { return rays_.size(); }
+    [[nodiscard]] bool has_ray(std::size_t i) const { return rays_.has_ray(i); }
+
+    /// Whether point i is mixed. Precondition: it has a ray.
+    [[nodiscard]] bool operator()(std::size_t i) const {
+        if (!reach_.is_known()) return false;
+        constexpr double deviations = 6.0;  // 4.2 of the difference of two ranges
+        const double own = rays_.range_of(i);
+        const double sigma = options_.noise.along(scaled(own, rays_.ray_of(i)));
+        const double step = std::max(options_.min_step, deviations * sigma);
+        const auto near =
+            rays_.within(i, 0.5 * options_.divergence.radians() + reach_.around(rays_, i));
+        double nearest = own, farthest = own;
+        for (const neighbor& q : near) {
+            nearest = std::min(nearest, rays_.range_of(q.index));
+            farthest = std::max(farthest, rays_.range_of(q.index));
+        }
+        return nearest < own - step && farthest > own + step &&
+               rms_about_plane(rays_, i, near) > 0.5 * step;
+    }
+
+  private:
+    mixed_point_options options_;
+    ray_sphere rays_;
+    raster_reach reach_;
+};
+
 }  // namespace detail
 
 /// The indices of the points that are not mixed, ascending; see subset.
@@ -111,30 +148,11 @@ template <class R, execution X = sequential, class Proj = std::identity>
                                                            Proj projection = {}) {
     options.require_valid();
     const auto& team = detail::staying(run);
-    const detail::ray_sphere rays(points, detail::ray_sphere::usual_jump, team, projection);
-    const std::size_t n = rays.size();
-    const detail::raster_reach reach(rays, team);
-    const double half_beam = 0.5 * options.divergence.radians();
-    constexpr double deviations = 6.0;  // 4.2 of the difference of two ranges
-    detail::scratch<std::uint8_t> is_kept(n, 0);
-    detail::for_each_chunk(team, n, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            if (!rays.has_ray(i)) continue;
-            is_kept[i] = 1;
-            if (!reach.is_known()) continue;
-            const double own = rays.range_of(i);
-            const double sigma = options.noise.along(detail::scaled(own, rays.ray_of(i)));
-            const double step = std::max(options.min_step, deviations * sigma);
-            const auto near = rays.within(i, half_beam + reach.around(rays, i));
-            double nearest = own, farthest = own;
-            for (const neighbor& q : near) {
-                nearest = std::min(nearest, rays.range_of(q.index));
-                farthest = std::max(farthest, rays.range_of(q.index));
-            }
-            if (nearest < own - step && farthest > own + step &&
-                detail::rms_about_plane(rays, i, near) > 0.5 * step)
-                is_kept[i] = 0;
-        }
+    const detail::mixed_point_test is_mixed(points, options, team, projection);
+    detail::scratch<std::uint8_t> is_kept(is_mixed.size(), 0);
+    detail::for_each_chunk(team, is_kept.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            is_kept[i] = is_mixed.has_ray(i) && !is_mixed(i) ? 1 : 0;
     });
     return detail::flagged(is_kept);
 }

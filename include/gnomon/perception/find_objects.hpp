@@ -44,6 +44,7 @@
 #include <gnomon/perception/detail/object_competition.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
+#include <gnomon/perception/detail/whole_beams.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
@@ -216,9 +217,10 @@ class object_finder {
         if (kept.empty() || !seen.ground || names_.empty()) return seen;
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                           {.edge = perceive_views_options{}.cell}, team);
-        const detail::scene_evidence scene(cells,
-                                           visibility(points, {.noise = noise}, team, projection),
-                                           votes_.votes(seen.views), noise, *seen.ground, team);
+        const detail::scene_evidence scene(
+            cells, visibility(points, {.noise = noise}, team, projection), votes_.votes(seen.views),
+            noise, *seen.ground, team,
+            detail::mixed_cells(points, kept, cells, options.divergence, noise, team, projection));
         f(scene_of{kept, cells, scene});
         return seen;
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -55,14 +56,16 @@ class scene_evidence {
     static constexpr double worth = 0.05;  // chosen: a tenth of the one that is usually found
 
     scene_evidence(const voxel_grid::means& cells, visibility seen, cast_votes votes,
-                   const noise_curve& noise, const plane& ground, const auto& run)
+                   const noise_curve& noise, const plane& ground, const auto& run,
+                   std::vector<std::uint8_t> is_mixed = {})
         : cells_(cells),
           index_(cells, run),
           surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
           seen_(std::move(seen)),
           votes_(std::move(votes)),
           noise_(noise),
-          ground_(ground) {}
+          ground_(ground),
+          is_mixed_(std::move(is_mixed)) {}
 
     /// Places at which objects may stand: those for which parts vote, and others where their
     /// surface may be.
@@ -103,7 +106,7 @@ class scene_evidence {
         for_each_point_in(index_, start, model.low() - around, model.high() + around,
                           [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
         if (inside.size() < fewest) return hypothesis;
-        hypothesis.aligned = alignment_of(some_of(inside, much.cells), model, start,
+        hypothesis.aligned = alignment_of(inside, much.cells, model, start,
                                           {.noise = noise_,
                                            .on_ground = true,
                                            .max_distance = farthest,
@@ -133,10 +136,9 @@ class scene_evidence {
             .noise = noise_, .on_ground = true, .max_distance = alignment_options{}.last_distance};
         alignment settled = found;
         for (int round = 0; round < rounds; ++round) {
-            const rigid_motion pose = settled.pose;
-            const auto whole =
-                whole_beams_at(cells_, index_, surface_, model, pose, divergence, how.max_distance);
-            const auto next = alignment_of(some_of(whole.points, careful.cells), model, pose, how);
+            const auto whole = whole_beams_at(cells_, index_, surface_, is_mixed_, model,
+                                              settled.pose, divergence, how.max_distance);
+            const auto next = alignment_of(whole.points, careful.cells, model, settled.pose, how);
             const Eigen::Vector3d moved =
                 difference(next.pose.point_out(found.pose.point_in(found.center)), found.center);
             const double ahead = dot(direction_of(whole.way), moved);
@@ -144,8 +146,8 @@ class scene_evidence {
             if (!next.is_usable() || !(std::abs(ahead) < along * whole.widest) ||
                 !(aside < across * whole.widest)) {
                 settled = found;
-                const double shift = across * whole.widest;
-                for (const int a : {3, 4}) settled.covariance(a, a) += shift * shift;
+                for (const int a : {3, 4})
+                    settled.covariance(a, a) += std::pow(across * whole.widest, 2);
                 break;
             }
             settled = next;
@@ -213,21 +215,17 @@ class scene_evidence {
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
 
   private:
-    /// Evenly chosen ones, in their order.
-    [[nodiscard]] static std::vector<point_index> some_of(const std::vector<point_index>& all,
-                                                          std::size_t most) {
-        const std::size_t n = std::min(all.size(), most);
-        std::vector<point_index> some(n);
-        for (std::size_t k = 0; k < n; ++k) some[k] = all[k * all.size() / n];
-        return some;
-    }
-
-    /// Aligns some cells with the surface of an object.
-    [[nodiscard]] alignment alignment_of(const std::vector<point_index>& some,
+    /// Aligns some of these cells, evenly chosen, at most `most`, with the surface of an object.
+    [[nodiscard]] alignment alignment_of(const std::vector<point_index>& all, std::size_t most,
                                          const surface_model& model, const rigid_motion& start,
                                          const alignment_options& options) const {
-        std::vector<surface_model::oriented> normals(some.size());
-        for (std::size_t k = 0; k < some.size(); ++k) normals[k].normal = surface_[some[k]].normal;
+        const std::size_t n = std::min(all.size(), most);
+        std::vector<point_index> some(n);
+        std::vector<surface_model::oriented> normals(n);
+        for (std::size_t k = 0; k < n; ++k) {
+            some[k] = all[k * all.size() / n];
+            normals[k].normal = surface_[some[k]].normal;
+        }
         return align_to_surface(subset_view(cells_, some), normals, model.points(), model.normals(),
                                 start.inverse(), options)
             .inverse();
@@ -244,6 +242,7 @@ class scene_evidence {
     cast_votes votes_;
     noise_curve noise_;
     plane ground_;
+    std::vector<std::uint8_t> is_mixed_;  // of each cell, by mixed_cells()
 };
 
 }  // namespace gnomon::recognition::detail

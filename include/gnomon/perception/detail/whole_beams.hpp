@@ -2,11 +2,13 @@
 /// @file
 /// The points of an object that whole beams hit. A beam at an edge returns the mean range
 /// of two faces, or of one and of things behind it: such points shift the pose of an object by
-/// millimeters, mostly away from the sensor.
+/// millimeters, mostly away from the sensor. So do those that beams at the edge of something in
+/// front of the object return, which only the scan shows to be mixed.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,9 +16,12 @@
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/filters/remove_mixed_points.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -54,6 +59,29 @@ namespace gnomon::recognition::detail {
     });
 }
 
+/// Of each cell of some points of a scan: whether a beam mixed any of its points; empty if beams
+/// are narrow.
+/// @param chosen       the points that are in cells
+/// @param cells        of these
+/// @param divergence   full angle of the beams
+template <class R, class Proj>
+[[nodiscard]] std::vector<std::uint8_t> mixed_cells(const R& points,
+                                                    const std::vector<point_index>& chosen,
+                                                    const voxel_grid::means& cells,
+                                                    angle divergence, const noise_curve& noise,
+                                                    const auto& run, Proj projection) {
+    if (divergence == degrees(0.0)) return {};
+    const gnomon::detail::mixed_point_test test(points, {.divergence = divergence, .noise = noise},
+                                                run, projection);
+    std::vector<std::uint8_t> is_mixed(chosen.size(), 0), any(cells.size(), 0);
+    gnomon::detail::for_each_chunk(run, chosen.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            is_mixed[i] = test.has_ray(chosen[i]) && test(chosen[i]) ? 1 : 0;
+    });
+    for (std::size_t i = 0; i < chosen.size(); ++i) any[cells.of_point[i]] |= is_mixed[i];
+    return any;
+}
+
 /// Points of an object, and the beams that hit them.
 struct whole_beams {
     std::vector<point_index> points;  ///< those at no edge
@@ -64,12 +92,14 @@ struct whole_beams {
 /// @param cloud       of index and normals, seen from the origin without view points
 /// @param normals     of its points, a `normal_range`
 /// @param pose        of the object
+/// @param is_mixed    of each of its points, or empty if that is unknown
 /// @param divergence  full angle of the beams
 /// @param margin      around the object [m]
 [[nodiscard]] whole_beams whole_beams_at(const voxel_grid::means& cloud, const spatial_index& index,
-                                         const auto& normals, const surface_model& model,
-                                         const rigid_motion& pose, angle divergence,
-                                         double margin) {
+                                         const auto& normals,
+                                         const std::vector<std::uint8_t>& is_mixed,
+                                         const surface_model& model, const rigid_motion& pose,
+                                         angle divergence, double margin) {
     whole_beams found;
     std::vector<neighbor> near;
     const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
@@ -82,6 +112,7 @@ struct whole_beams {
             const double width = divergence.radians() * gnomon::detail::length(way);
             found.way = gnomon::detail::combined(1.0, found.way, 1.0, way);
             found.widest = std::max(found.widest, width);
+            if (!is_mixed.empty() && is_mixed[i] != 0) return;
             const Eigen::Vector3d normal = pose.direction_in(normals[i].normal);
             if (!is_at_edge(model, x, normal, 0.5 * width, near)) found.points.push_back(i);
         });

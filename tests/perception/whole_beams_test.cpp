@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/filters/remove_mixed_points.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/perception/detail/whole_beams.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/simulation.hpp>
+#include <gnomon/simulation/sample_surface.hpp>
+
+namespace rec = gnomon::recognition;
+namespace sim = gnomon::simulation;
+
+namespace {
+
+const gnomon::angle beam_width = gnomon::radians(0.010);
+const gnomon::noise_curve beam_noise = gnomon::constant_noise{0.005};
+
+/// A table behind a post, of which the points above the floor are in cells.
+struct table_behind_post {
+    gnomon::rigid_motion pose = gnomon::rigid_motion::on_ground(2.2, 0.1, gnomon::degrees(25));
+    sim::furniture_model table = sim::furniture_models().back();
+    gnomon::scan scan;
+    std::vector<gnomon::point_index> above;
+    gnomon::voxel_grid::means cells;
+
+    table_behind_post() {
+        sim::scene world;
+        world.add_object("floor", sim::plane_patch{.length = 6.0, .width = 6.0}, sim::at(2, 0, 0));
+        (void)sim::add(world, table, pose);
+        world.add_object("post", sim::box{0.05, 0.05, 1.0}, sim::at(1.3, 0.1, 0.5));
+        scan = sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
+                             sim::scanner{},
+                             {.sigma = 0.005,
+                              .footprint = {.divergence = beam_width,
+                                            .sub_rays = 9,
+                                            .rule = sim::echo_rule::averaged}})
+                   .scan;
+        for (std::size_t i = 0; i < scan.size(); ++i)
+            if (scan.points[i].z() > 0.05) above.push_back(static_cast<gnomon::point_index>(i));
+        cells = gnomon::average_voxels(gnomon::subset_view(scan, above), {.edge = 0.01});
+    }
+
+    [[nodiscard]] std::vector<std::uint8_t> mixed(gnomon::angle divergence, const auto& run) const {
+        return rec::detail::mixed_cells(scan, above, cells, divergence, beam_noise, run,
+                                        std::identity{});
+    }
+};
+
+TEST(whole_beams, mixed_cells_are_those_of_points_that_the_filter_removes) {
+    const table_behind_post seen;
+    EXPECT_TRUE(seen.mixed(gnomon::degrees(0.0), gnomon::sequential{}).empty());
+    const auto found = seen.mixed(beam_width, gnomon::sequential{});
+    EXPECT_EQ(seen.mixed(beam_width, gnomon::threads{3}), found);
+    const auto kept =
+        gnomon::remove_mixed_points(seen.scan, {.divergence = beam_width, .noise = beam_noise});
+    std::vector<std::uint8_t> expected(seen.cells.size(), 0);
+    for (std::size_t i = 0; i < seen.above.size(); ++i)
+        if (!std::ranges::binary_search(kept, seen.above[i])) expected[seen.cells.of_point[i]] = 1;
+    EXPECT_EQ(found, expected);
+    EXPECT_GT(std::ranges::count(found, 1), 20);
+}
+
+TEST(whole_beams, points_of_mixed_cells_are_left_out) {
+    const table_behind_post seen;
+    const auto samples = sim::sample_surface(seen.table, {.spacing = 0.02});
+    const rec::surface_model surface(samples, samples, 0.02, std::nullopt,
+                                     &sim::surface_sample::position);
+    const gnomon::spatial_index index(seen.cells);
+    const auto normals = gnomon::estimate_normals(index, gnomon::knn{.k = 15}, gnomon::plane_pca{});
+    const auto at = [&](const std::vector<std::uint8_t>& is_mixed) {
+        return rec::detail::whole_beams_at(seen.cells, index, normals, is_mixed, surface, seen.pose,
+                                           beam_width, 0.03);
+    };
+    const auto is_mixed = seen.mixed(beam_width, gnomon::sequential{});
+    const auto all = at({}), some = at(is_mixed);
+    std::vector<gnomon::point_index> expected = all.points;
+    EXPECT_GT(std::erase_if(expected, [&](gnomon::point_index c) { return is_mixed[c] != 0; }), 0u);
+    EXPECT_EQ(some.points, expected);
+    EXPECT_FALSE(some.points.empty());
+    // The width and the direction are those of all beams at the object.
+    EXPECT_EQ(some.widest, all.widest);
+    EXPECT_EQ(some.way, all.way);
+}
+
+}  // namespace
