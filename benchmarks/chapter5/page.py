@@ -90,14 +90,15 @@ SECTIONS = [
     ("rooms", "Fig. 5.10: whole rooms",
      "40 rooms of each seed with four pieces of furniture and about 20 groups of clutter, and 10 further ones in which "
      "objects touch walls and each other, scanned from a wall by a beam of 10 mrad that averages. Objects of 60 points "
-     "and more count. Thesis grouping makes one view of all points with steps of 10 cm at most, Sec. 5.5.1, and decides by "
+     "and more count. Thesis grouping makes one view of all points but mixed ones (`remove_mixed_points`) with steps of 10 cm at "
+     "most, Sec. 5.5.1, and decides by "
      "the recommended mode at P_d 0.90; it has learned other things as background. Voting and verification "
      "(`object_finder`) knows the surfaces of the models, and decides at a probability of 0.5. Precision is the share of right "
      "ones of the decided objects, a second one on the same piece being wrong; recall is the share of all pieces that "
      "were found; accuracy is the share of views that are decided rightly, or rejected and background; whole is the share of "
      "pieces of which one group has 80 % of the points, and hardly others. Poses are those of right objects of 200 "
      "points and more, up to the symmetry of the model; NEES are those of poses that are right and that the points "
-     "determine. The finder knows the noise and the width of the beams. Hypotheses are offered at each piece of 200 points "
+     "determine. Both know the noise and the width of the beams. Hypotheses are offered at each piece of 200 points "
      "and more of the cluttered rooms: all models, at most 5 cm and 10 degrees off, in four headings of which the most "
      "probable one counts. Times are those of the processor, all threads together; the time of a room is the one that passes, for "
      "scans of half as many points."),
