@@ -146,7 +146,7 @@ TEST(perceive_views, degenerate_scans_have_no_views) {
 
 /// Beams that hit a stool and the carton behind it return a chain of points from one to the other.
 TEST(perceive_views, wide_beams_connect_no_objects_if_their_width_is_known) {
-    const gnomon::angle wide = gnomon::radians(0.010);
+    const gnomon::angle full_angle = gnomon::radians(0.010);
     sim::scene world;
     world.add_object("floor", sim::plane_patch{.length = 6.0, .width = 6.0}, sim::at(2, 0, 0));
     world.add_object("post", sim::box{0.1, 0.3, 0.8}, sim::at(2.0, 0.0, 0.4));
@@ -155,7 +155,8 @@ TEST(perceive_views, wide_beams_connect_no_objects_if_their_width_is_known) {
         const auto truth = sim::simulate(
             world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0}, sim::scanner{},
             {.sigma = sigma,
-             .footprint = {.divergence = wide, .sub_rays = 9, .rule = sim::echo_rule::averaged}});
+             .footprint = {
+                 .divergence = full_angle, .sub_rays = 9, .rule = sim::echo_rule::averaged}});
         // Views with more points of both than those at its edges.
         const auto connected = [&](gnomon::angle divergence) {
             const auto seen = rec::perceive_views(truth.scan, {.divergence = divergence});
@@ -172,7 +173,7 @@ TEST(perceive_views, wide_beams_connect_no_objects_if_their_width_is_known) {
             return of_both;
         };
         EXPECT_GE(connected(gnomon::degrees(0.0)), 1) << sigma;
-        EXPECT_EQ(connected(wide), 0) << sigma;
+        EXPECT_EQ(connected(full_angle), 0) << sigma;
     }
 }
 
