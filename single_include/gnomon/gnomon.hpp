@@ -20345,8 +20345,8 @@ class ray_sphere {
 
     /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
     /// simulation::furniture_models(), seeds 1 to 3.
-    static constexpr double usual_jump = 0.30;
-    static constexpr double same_ray = 1e-6;  ///< rays closer together are one [rad]; rounding
+    static constexpr double usual_jump = 0.30;  // [m]; chosen, as above
+    static constexpr double same_ray = 1e-6;    ///< rays closer together are one [rad]; rounding
 
   private:
     // A ray of a raster has neighbors in four directions, 90 degrees apart; and rounding and
@@ -20475,7 +20475,7 @@ class raster_reach {
 ///
 /// A surface that is seen at grazing incidence has neighboring ranges as different as those of two
 /// surfaces, but inverse ranges of a plane are linear in the direction of the ray: points on a
-/// plane are kept at any incidence. All true points at edges are kept as well, those that make
+/// plane are kept at any incidence. Most true points at edges are kept as well, those that make
 /// surfaces look too wide among them: remove_silhouettes() removes these.
 
 namespace gnomon {
@@ -20536,10 +20536,11 @@ class mixed_point_test {
     [[nodiscard]] std::size_t size() const { return rays_.size(); }
     [[nodiscard]] bool has_ray(std::size_t i) const { return rays_.has_ray(i); }
 
-    /// Whether point i is mixed. Precondition: it has a ray.
+    /// Whether point i is mixed; not without a ray.
     [[nodiscard]] bool operator()(std::size_t i) const {
-        if (!reach_.is_known()) return false;
-        constexpr double deviations = 6.0;  // 4.2 of the difference of two ranges
+        if (!reach_.is_known() || !has_ray(i)) return false;
+        constexpr double deviations = 6.0;  // of one range: 4.2 of the difference of two
+        constexpr double uneven = 0.5;      // share of a step; chosen on the rooms of min_step
         const double own = rays_.range_of(i);
         const double sigma = options_.noise.along(scaled(own, rays_.ray_of(i)));
         const double step = std::max(options_.min_step, deviations * sigma);
@@ -20551,7 +20552,7 @@ class mixed_point_test {
             farthest = std::max(farthest, rays_.range_of(q.index));
         }
         return nearest < own - step && farthest > own + step &&
-               rms_about_plane(rays_, i, near) > 0.5 * step;
+               rms_about_plane(rays_, i, near) > uneven * step;
     }
 
   private:
@@ -20566,8 +20567,8 @@ class mixed_point_test {
 ///
 /// The neighbors of a point are here the points whose rays are at most half the divergence and the
 /// spacing of rays from its own, as far as both surfaces are seen. A point is mixed if one of them
-/// is nearer than it by a step, another one farther by a step, and the plane that fits all best
-/// leaves a root mean square of half a step.
+/// is nearer than it by a step, another one farther by a step, and the root mean square of their
+/// ranges about the plane that fits them best is more than half a step.
 ///
 /// Points without a ray, not finite or at their view point, are left out. If rays are not next to
 /// each other in two directions, as in a single scan line, all points with a ray are kept.

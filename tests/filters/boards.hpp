@@ -63,4 +63,12 @@ inline std::vector<gnomon::point_index> all_of(const gnomon::scan& scan) {
     return all;
 }
 
+/// Adds a point at the view point, and such as are not finite or too far.
+inline void add_points_without_a_ray(gnomon::scan& scan) {
+    for (const Eigen::Vector3d& p :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(clouds::nan, 0, 0),
+          Eigen::Vector3d(0, clouds::infinity, 0), Eigen::Vector3d(1e300, 1e300, 0)})
+        scan.points.push_back(p);
+}
+
 }  // namespace boards

@@ -114,10 +114,7 @@ TEST(remove_mixed_points, a_single_scan_line_is_kept) {
 TEST(remove_mixed_points, points_without_a_ray_are_left_out) {
     gnomon::scan scan = scan_of(near_and_far, beam);
     const auto kept = remove_mixed_points(scan);
-    for (const Eigen::Vector3d& p :
-         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(clouds::nan, 0, 0),
-          Eigen::Vector3d(0, clouds::infinity, 0), Eigen::Vector3d(1e300, 1e300, 0)})
-        scan.points.push_back(p);
+    boards::add_points_without_a_ray(scan);
     EXPECT_EQ(remove_mixed_points(scan), kept);
 }
 

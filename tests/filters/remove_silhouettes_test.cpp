@@ -169,10 +169,7 @@ TEST(remove_silhouettes, a_single_scan_line_is_kept) {
 TEST(remove_silhouettes, points_without_a_ray_are_left_out) {
     gnomon::scan scan = scan_of({{3.0, 0.3, 0.4}}, beam);
     const auto kept = remove_silhouettes(scan);
-    for (const Eigen::Vector3d& p :
-         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(clouds::nan, 0, 0),
-          Eigen::Vector3d(0, clouds::infinity, 0), Eigen::Vector3d(1e300, 1e300, 0)})
-        scan.points.push_back(p);
+    boards::add_points_without_a_ray(scan);
     EXPECT_EQ(remove_silhouettes(scan), kept);
 }
 

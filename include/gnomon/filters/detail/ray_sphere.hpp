@@ -93,8 +93,8 @@ class ray_sphere {
 
     /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
     /// simulation::furniture_models(), seeds 1 to 3.
-    static constexpr double usual_jump = 0.30;
-    static constexpr double same_ray = 1e-6;  ///< rays closer together are one [rad]; rounding
+    static constexpr double usual_jump = 0.30;  // [m]; chosen, as above
+    static constexpr double same_ray = 1e-6;    ///< rays closer together are one [rad]; rounding
 
   private:
     // A ray of a raster has neighbors in four directions, 90 degrees apart; and rounding and

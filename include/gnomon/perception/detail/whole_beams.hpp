@@ -61,9 +61,10 @@ namespace gnomon::recognition::detail {
 
 /// Of each cell of some points of a scan: whether a beam mixed any of its points; empty if beams
 /// are narrow.
-/// @param chosen       the points that are in cells
-/// @param cells        of these
-/// @param divergence   full angle of the beams
+/// @param chosen      the points that are in cells
+/// @param cells       of these
+/// @param divergence  full angle of the beams
+/// @param noise       along the rays
 template <class R, class Proj>
 [[nodiscard]] std::vector<std::uint8_t> mixed_cells(const R& points,
                                                     const std::vector<point_index>& chosen,
@@ -75,8 +76,7 @@ template <class R, class Proj>
                                                 run, projection);
     std::vector<std::uint8_t> is_mixed(chosen.size(), 0), any(cells.size(), 0);
     gnomon::detail::for_each_chunk(run, chosen.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            is_mixed[i] = test.has_ray(chosen[i]) && test(chosen[i]) ? 1 : 0;
+        for (std::size_t i = begin; i < end; ++i) is_mixed[i] = test(chosen[i]) ? 1 : 0;
     });
     for (std::size_t i = 0; i < chosen.size(); ++i) any[cells.of_point[i]] |= is_mixed[i];
     return any;
