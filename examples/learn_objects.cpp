@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/io.hpp>
 #include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/perception/views_of_segments.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/view_augmentation.hpp>
 #include <gnomon/simulation.hpp>
@@ -33,25 +35,30 @@ namespace {
 namespace rec = gnomon::recognition;
 
 // [learn_objects]
-/// Adds what is seen of an object in a scan of it alone, if that has parts.
-void add_view(std::vector<rec::view>& views, const gnomon::scan& scan, double sigma) {
-    auto seen = rec::perceive_views(scan, {.ground = gnomon::plane{},
-                                           .noise = gnomon::constant_noise{sigma},
-                                           .gap = rec::infinite_gap});
-    for (rec::view& v : seen.views) views.push_back(std::move(v));
+/// Adds what is seen of an object in a scan of it alone, if that has parts: its parts, and the object
+/// as one part, as real scans are cut into other parts than simulated ones.
+void add_views(std::vector<rec::view>& views, const gnomon::scan& scan, double sigma) {
+    const rec::perceive_views_options alone{.ground = gnomon::plane{},
+                                            .noise = gnomon::constant_noise{sigma},
+                                            .gap = rec::infinite_gap};
+    auto seen = rec::perceive_views(scan, alone).views;
+    const gnomon::segments whole(std::vector<std::int32_t>(scan.size(), 0));
+    std::ranges::move(seen, std::back_inserter(views));
+    if (seen.empty()) return;
+    std::ranges::move(rec::views_of_segments(scan, whole, alone), std::back_inserter(views));
 }
 
-/// A view of a model, and two of the same scan of which a part is hidden.
+/// The views of a scan of a model, and of two versions of it of which a part is hidden.
 std::vector<rec::view> versions_of_view(const sim::furniture_model& model, std::uint64_t number,
                                         const options& o) {
     const sim::object_view_options how{.beam = {.sigma = o.sigma}, .seed = o.seed};
     const auto shot = sim::simulate_object_view(model, number, how);
     std::vector<rec::view> versions;
-    add_view(versions, shot.truth.scan, o.sigma);
+    add_views(versions, shot.truth.scan, o.sigma);
     gnomon::random_stream random(~o.seed, number);
     for (int i = 0; i < 2; ++i) {
         const auto visible = rec::hide_part(shot.truth.scan, how.sensor.position, random);
-        add_view(versions, gnomon::subset(shot.truth.scan, visible), o.sigma);
+        add_views(versions, gnomon::subset(shot.truth.scan, visible), o.sigma);
     }
     return versions;
 }

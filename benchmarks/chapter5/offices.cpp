@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 // A real office, Sec. 5.8.4: chairs and tables of a real scan, recognized by a model that has
-// learned simulated views of other chairs and tables, and of clutter. The segments of an object are
-// its labeled parts, or those that perceive_views finds in the group that most of its points are
-// in.
+// learned simulated views of other chairs and tables, and of clutter, in parts and as one part. The
+// segments of an object are its labeled parts, or those that perceive_views finds in the group that
+// most of its points are in.
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -18,15 +19,14 @@
 #include "furniture_classes.hpp"
 #include "outcomes.hpp"
 #include "views.hpp"
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
 #include <gnomon/core/subset_view.hpp>
-#include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/io/label_properties.hpp>
 #include <gnomon/io/read.hpp>
-#include <gnomon/neighborhoods/knn.hpp>
-#include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/perception/views_of_segments.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
-#include <gnomon/recognition/views_of.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace {
@@ -35,15 +35,16 @@ constexpr std::array<const char*, 3> class_names{"chair", "table", "background"}
 using furniture::class_of;
 using furniture::other;
 
-/// Furniture of the simulator and of mesh files, office chairs, and clutter.
+/// Furniture of the simulator and of mesh files, office chairs and tables, and clutter.
 std::vector<sim::furniture_model> models_to_learn(std::uint64_t seed) {
     std::vector<sim::furniture_model> models = sim::furniture_models();
     // It is neither chair nor table, and too similar to both to be background.
     std::erase_if(models, [](const auto& m) { return m.name == "stool"; });
     for (auto& read : furniture::read_all(std::string(CHAPTER5_DATA) + "/furniture"))
         models.push_back(std::move(read));
-    for (auto& made : sim::office_chairs(8, seed)) models.push_back(std::move(made));
-    for (auto& piece : sim::clutter_models(24, seed)) models.push_back(std::move(piece));
+    for (auto& made : sim::office_chairs(16, seed)) models.push_back(std::move(made));
+    for (auto& made : sim::office_tables(16, seed)) models.push_back(std::move(made));
+    for (auto& piece : sim::clutter_models(48, seed)) models.push_back(std::move(piece));
     return models;
 }
 
@@ -77,26 +78,48 @@ std::vector<labeled_object> objects_in(const std::string& path) {
     return all;
 }
 
-/// The view of one object whose segments are its labeled parts, of cells as perceive_views makes.
+/// The view of points that are one object of these segments; without parts if there is none.
+rec::view view_of_parts(const auto& points, const gnomon::segments& parts,
+                        const std::optional<gnomon::noise_curve>& noise = std::nullopt) {
+    auto views = rec::views_of_segments(
+        points, parts, {.ground = gnomon::plane{}, .noise = noise, .gap = rec::infinite_gap});
+    if (!views.empty()) return std::move(views.front());
+    rec::view nothing;
+    nothing.ground = gnomon::plane{};
+    return nothing;
+}
+
+/// That of an object of the office whose segments are its labeled parts.
 rec::view labeled_view(const gnomon::scan& scan, const std::vector<std::int32_t>& label_of,
                        const labeled_object& object) {
     std::vector<gnomon::point_index> members;
-    for (std::size_t i = 0; i < label_of.size(); ++i)
-        if (object.has(label_of[i])) members.push_back(static_cast<gnomon::point_index>(i));
-    const rec::perceive_views_options how;
-    const auto cells =
-        gnomon::average_voxels(gnomon::subset_view(scan, members), {.edge = how.cell});
-    std::vector<std::int32_t> labels(cells.size(), gnomon::unlabeled);
-    for (std::size_t i = 0; i < members.size(); ++i)
-        labels[cells.of_point[i]] = static_cast<std::int32_t>(
-            std::ranges::find(object.labels, label_of[members[i]]) - object.labels.begin());
-    const std::size_t k =
-        rec::detail::neighbors_by_density(cells, how.k, how.reach, gnomon::threads{});
-    const auto surface = gnomon::estimate_normals(cells, gnomon::knn{.k = k});
-    auto views =
-        rec::views_of(cells, surface, gnomon::segments(std::move(labels)),
-                      {.gap = rec::infinite_gap, .min_parts = 1, .ground = gnomon::plane{}});
-    return views.empty() ? rec::view{} : std::move(views.front());
+    std::vector<std::int32_t> parts;
+    for (std::size_t i = 0; i < label_of.size(); ++i) {
+        if (!object.has(label_of[i])) continue;
+        members.push_back(static_cast<gnomon::point_index>(i));
+        parts.push_back(static_cast<std::int32_t>(
+            std::ranges::find(object.labels, label_of[i]) - object.labels.begin()));
+    }
+    return view_of_parts(gnomon::subset_view(scan, members), gnomon::segments(std::move(parts)));
+}
+
+/// The views of scans, each once by its parts and once as one part: the segments of real scans, and
+/// labels, are cut elsewhere than those of simulated ones.
+view_set in_parts_and_whole(const scan_set& scans) {
+    const view_set in_parts = views_of(scans);
+    view_set both{.views = std::vector<rec::view>(2 * in_parts.views.size()),
+                  .classes = {},
+                  .parts = {},
+                  .versions = 2 * in_parts.versions};
+    gnomon::threads{}(in_parts.views.size(), [&](std::size_t i) {
+        const gnomon::scan& scan = scans.scans[i];
+        both.views[2 * i] = in_parts.views[i];
+        both.views[2 * i + 1] =
+            view_of_parts(scan, gnomon::segments(std::vector<std::int32_t>(scan.size(), 0)),
+                          gnomon::constant_noise{scans.sigma});
+    });
+    for (const std::uint32_t of : in_parts.classes) both.classes.insert(both.classes.end(), 2, of);
+    return both;
 }
 
 /// A decision is right if its class is; no class is a decision, too, if that of the object is none.
@@ -155,7 +178,7 @@ class study {
         rec::object_recognizer model;
         for (const bool skims : {false, true}) {
             learn_views(model,
-                        views_of(with_hidden_parts(
+                        in_parts_and_whole(with_hidden_parts(
                             scans_of(models, n, {.skims = skims}, seed, purpose::learning), seed)),
                         names);
             model.fit(gnomon::threads{});

@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "common/furniture_files.hpp"
@@ -77,12 +79,34 @@ inline std::vector<sim::furniture_model> clutter(std::size_t pieces, std::uint64
     return all;
 }
 
-/// Adds the clutter as background, with the number of views that three models have.
+/// Adds models as examples of one class.
+/// @param views  of each model
+inline void add_examples(std::vector<example>& all, std::string_view name,
+                         std::vector<sim::furniture_model> models, std::size_t views) {
+    for (auto& model : models)
+        all.push_back({std::string(name), std::move(model), std::max<std::size_t>(1, views)});
+}
+
+/// Adds what is background, with the number of views that three models have.
 inline void add_background(std::vector<example>& all, const options& o) {
     constexpr std::size_t pieces = 24;
-    const std::size_t each = std::max<std::size_t>(1, 3 * o.views / pieces);
-    for (auto& model : clutter(pieces, o.seed))
-        all.push_back({std::string(gnomon::recognition::background_name), std::move(model), each});
+    add_examples(all, gnomon::recognition::background_name, clutter(pieces, o.seed),
+                 3 * o.views / pieces);
+}
+
+/// Adds chairs, tables and clutter of offices. There are many models, so that a quarter of the views
+/// of each is enough. The stool is none of these.
+inline void add_office(std::vector<example>& all, const options& o) {
+    const std::size_t views = o.views / 4;
+    for (auto& model : sim::furniture_models()) {
+        if (model.name == "stool") continue;
+        const bool is_chair = std::holds_alternative<sim::chair>(model.piece);
+        add_examples(all, is_chair ? "chair" : "table", {std::move(model)}, views);
+    }
+    add_examples(all, "chair", sim::office_chairs(16, o.seed), views);
+    add_examples(all, "table", sim::office_tables(16, o.seed), views);
+    add_examples(all, gnomon::recognition::background_name, sim::clutter_models(48, o.seed), views);
+    add_background(all, o);
 }
 
 }  // namespace detail
@@ -93,11 +117,13 @@ inline void add_background(std::vector<example>& all, const options& o) {
 /// @throws usage_error    for mesh files, without Assimp
 inline std::vector<example> examples_of(const options& o) {
     std::vector<example> all;
-    if (o.models.empty()) {
-        for (auto& model : sim::furniture_models()) all.push_back({model.name, model, o.views});
-    } else {
+    if (o.office) detail::add_office(all, o);
+    if (!o.models.empty()) {
         for (auto& file : common::furniture_in("--models", o.models, o.y_up))
-            all.push_back({file.class_name, std::move(file.model), o.views});
+            detail::add_examples(all, file.class_name, {std::move(file.model)}, o.views);
+    } else if (!o.office) {
+        for (auto& model : sim::furniture_models())
+            detail::add_examples(all, model.name, {model}, o.views);
     }
     const auto is_background = [](const example& e) {
         return e.name == gnomon::recognition::background_name;

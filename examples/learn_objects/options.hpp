@@ -25,6 +25,10 @@ into the file MODEL (JSON).
                       with the name of the folder. The class of the folder "background"
                       stands for whatever is no object; without that folder it is learned
                       from built-in cupboards, cartons, bins and pieces of walls
+  --office            the classes "chair" and "table" in place of the built-in furniture: this
+                      and office chairs, desks with things on them, and side tables, of random
+                      sizes; classes of --models are learned, too, and files of other chairs
+                      and tables are to be in folders of these names
   --y-up              the y axis of the files points up, not z
   --views N           scans of each model (40)
   --seed N            of all that is random (1)
@@ -32,7 +36,8 @@ into the file MODEL (JSON).
   --threads N         0 for all there are (0)
   --help              this text
 
-From each scan three views are learned: the whole one, and two of which a part is hidden.
+From each scan six views are learned: the whole one, and two of which a part is hidden, each in
+its parts and as one part.
 
 Exit status: 0; 1 if a file cannot be read or written; 2 for a wrong command line.
 )";
@@ -41,6 +46,7 @@ struct options {
     static constexpr const char* name_of_out = "MODEL";
     std::string out;     ///< path of the model file
     std::string models;  ///< directory or file; empty for the built-in models
+    bool office = false;
     bool y_up = false;
     std::size_t views = 40;
     std::uint64_t seed = 1;
@@ -55,6 +61,8 @@ inline constexpr option<options> known_options[] = {
          if (value.empty()) throw usage_error(name + ": its value is missing");
          o.models = value;
      }},
+    {"--office", false,
+     [](options& o, const std::string&, const std::string&) { o.office = true; }},
     {"--y-up", false, [](options& o, const std::string&, const std::string&) { o.y_up = true; }},
     {"--views", true,
      [](options& o, const std::string& name, const std::string& value) {

@@ -20,6 +20,7 @@
 #include <gnomon/simulation/kinematic_chain.hpp>
 #include <gnomon/simulation/object_views.hpp>
 #include <gnomon/simulation/office_chairs.hpp>
+#include <gnomon/simulation/office_tables.hpp>
 #include <gnomon/simulation/plane_patch.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/pose.hpp>
