@@ -34,19 +34,20 @@ namespace {
 
 namespace rec = gnomon::recognition;
 
-// [learn_objects]
-/// Adds what is seen of an object in a scan of it alone, if that has parts: its parts, and the object
-/// as one part, as real scans are cut into other parts than simulated ones.
+// [learn_views]
+/// Adds what is seen of an object in a scan of it alone, if that has parts: its parts, and the
+/// object as one part, as real scans are cut into other parts than simulated ones.
 void add_views(std::vector<rec::view>& views, const gnomon::scan& scan, double sigma) {
     const rec::perceive_views_options alone{.ground = gnomon::plane{},
                                             .noise = gnomon::constant_noise{sigma},
                                             .gap = rec::infinite_gap};
     auto seen = rec::perceive_views(scan, alone).views;
     const gnomon::segments whole(std::vector<std::int32_t>(scan.size(), 0));
-    std::ranges::move(seen, std::back_inserter(views));
     if (seen.empty()) return;
+    std::ranges::move(seen, std::back_inserter(views));
     std::ranges::move(rec::views_of_segments(scan, whole, alone), std::back_inserter(views));
 }
+// [learn_views]
 
 /// The views of a scan of a model, and of two versions of it of which a part is hidden.
 std::vector<rec::view> versions_of_view(const sim::furniture_model& model, std::uint64_t number,
@@ -62,7 +63,6 @@ std::vector<rec::view> versions_of_view(const sim::furniture_model& model, std::
     }
     return versions;
 }
-// [learn_objects]
 
 /// A view to be simulated.
 struct task {

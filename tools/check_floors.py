@@ -52,7 +52,7 @@ FORBIDDEN = {
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
            "gnomon/segmentation/segment_image.hpp",
            "gnomon/perception/perceive_views.hpp", "gnomon/perception/find_objects.hpp",
-           "gnomon/perception/found_object.hpp",
+           "gnomon/perception/found_object.hpp", "gnomon/perception/views_of_segments.hpp",
            "gnomon/core/rigid_motion.hpp"}
 # To find objects in rooms needs surfaces and visibility, which other recognition does not.
 OUTSIDE |= {f"gnomon/recognition/{name}.hpp" for name in ("cast_votes", "part_votes", "surface_model", "verification", "verify_pose",

@@ -97,8 +97,8 @@ rec::view labeled_view(const gnomon::scan& scan, const std::vector<std::int32_t>
     for (std::size_t i = 0; i < label_of.size(); ++i) {
         if (!object.has(label_of[i])) continue;
         members.push_back(static_cast<gnomon::point_index>(i));
-        parts.push_back(static_cast<std::int32_t>(
-            std::ranges::find(object.labels, label_of[i]) - object.labels.begin()));
+        parts.push_back(static_cast<std::int32_t>(std::ranges::find(object.labels, label_of[i]) -
+                                                  object.labels.begin()));
     }
     return view_of_parts(gnomon::subset_view(scan, members), gnomon::segments(std::move(parts)));
 }

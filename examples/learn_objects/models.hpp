@@ -94,8 +94,8 @@ inline void add_background(std::vector<example>& all, const options& o) {
                  3 * o.views / pieces);
 }
 
-/// Adds chairs, tables and clutter of offices. There are many models, so that a quarter of the views
-/// of each is enough. The stool is none of these.
+/// Adds chairs, tables and clutter of offices. There are many models, so that a quarter of the
+/// views of each is enough. The stool is none of these.
 inline void add_office(std::vector<example>& all, const options& o) {
     const std::size_t views = o.views / 4;
     for (auto& model : sim::furniture_models()) {

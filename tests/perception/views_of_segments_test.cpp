@@ -21,9 +21,8 @@ namespace sim = gnomon::simulation;
 namespace {
 
 /// Of an object on a floor that is not in the scan.
-const rec::perceive_views_options alone{.ground = gnomon::plane{},
-                                        .noise = gnomon::constant_noise{0.005},
-                                        .gap = rec::infinite_gap};
+const rec::perceive_views_options alone{
+    .ground = gnomon::plane{}, .noise = gnomon::constant_noise{0.005}, .gap = rec::infinite_gap};
 
 void expect_equal(const rec::view& a, const rec::view& b) {
     ASSERT_EQ(a.parts.size(), b.parts.size());
@@ -80,8 +79,7 @@ TEST(views_of_segments, are_grouped_by_the_gap) {
     add_square(3.3, gnomon::unlabeled);
     const auto views_by = [&](double gap) {
         return rec::views_of_segments(points, gnomon::segments(labels),
-                                      {.ground = gnomon::plane{}, .gap = gap},
-                                      gnomon::threads{2});
+                                      {.ground = gnomon::plane{}, .gap = gap}, gnomon::threads{2});
     };
     const auto near = views_by(0.10), apart = views_by(0.04);
     ASSERT_EQ(near.size(), 2u);

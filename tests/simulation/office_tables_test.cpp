@@ -6,7 +6,6 @@
 #include <string>
 
 #include <Eigen/Core>
-
 #include <gtest/gtest.h>
 
 #include "simulation/furnished.hpp"

@@ -6,8 +6,8 @@
 ///     namespace rec = gnomon::recognition;
 ///     const auto views = rec::views_of_segments(scan, labeled, {.ground = floor});
 ///
-/// Real scans are cut into other parts than simulated ones. A model that is to recognize objects
-/// whatever their parts learns views of an object as one part, too:
+/// Real scans are cut into other parts than simulated ones. To recognize objects whatever their
+/// parts, an object_recognizer is to be given views of whole objects as one part, too:
 ///
 ///     const gnomon::segments whole(std::vector<std::int32_t>(scan.size(), 0));
 ///     const auto as_one = rec::views_of_segments(scan, whole, {.ground = gnomon::plane{},
@@ -36,12 +36,12 @@
 
 namespace gnomon::recognition {
 
-/// The views whose parts are given: segments with steps of at most `options.gap` between them are
-/// of one object. A cell with points of several segments belongs to that of the last one.
+/// The views whose parts are given: segments with steps of at most `options.gap` between them
+/// belong to one object. A cell with points of several segments belongs to that of the last one.
 /// @param points   any point range of n points [m]; seen from the origin without view points
 /// @param parts    segments of the n points; those of floor, ceiling and walls are not to be parts.
 ///                 part::segment refers to these. Points of none count as the rest of a view
-/// @param options  as of perceive_views(), of which min_points and max_length are not needed
+/// @param options  those of perceive_views(), of which min_points and max_length are not needed
 /// @param run      the result does not depend on it
 /// @throws std::invalid_argument  if points and segments differ in number, for options that are not
 ///                                valid, or what the steps throw for them

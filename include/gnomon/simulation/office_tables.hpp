@@ -30,15 +30,13 @@ namespace detail {
 [[nodiscard]] inline table office_table(random_stream& random, bool is_desk) {
     table t;
     t.length = is_desk ? random.uniform(1.2, 2.6) : random.uniform(0.5, 1.2);
-    t.width =
-        std::min(t.length, is_desk ? random.uniform(0.6, 1.1) : random.uniform(0.45, 0.80));
+    t.width = std::min(t.length, is_desk ? random.uniform(0.6, 1.1) : random.uniform(0.45, 0.80));
     t.height = is_desk ? random.uniform(0.68, 0.78) : random.uniform(0.38, 0.62);
     t.thickness = random.uniform(0.02, 0.06);
     t.inset = random.uniform(0.0, 0.08);
     t.leg = random.uniform(0.025, 0.070);
     t.base = random.uniform() < 0.5 ? table_base::legs : table_base::panels;
-    if (!is_desk && random.uniform() < 0.5)
-        t.shelf_height = random.uniform(0.12, 0.5 * t.height);
+    if (!is_desk && random.uniform() < 0.5) t.shelf_height = random.uniform(0.12, 0.5 * t.height);
     return t;
 }
 
