@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -7,12 +8,14 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/subset_view.hpp>
+#include <gnomon/features/alignment.hpp>
 #include <gnomon/filters/remove_mixed_points.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
@@ -97,6 +100,33 @@ TEST(whole_beams, points_of_mixed_cells_are_left_out) {
     // The width and the direction are those of all beams at the object.
     EXPECT_EQ(some.widest, all.widest);
     EXPECT_EQ(some.way, all.way);
+}
+
+/// The shift is along the ground and the turn about its normal, whatever the axes of the scan are,
+/// and the turn is as large as the shift of the ends of an object of equal edges.
+TEST(whole_beams, shifts_of_edges_are_added_along_the_ground) {
+    const auto samples =
+        sim::sample_surface({"cube", sim::table{.length = 0.8, .width = 0.8}}, {.spacing = 0.02});
+    const rec::surface_model model(samples, samples, 0.02, std::nullopt,
+                                   &sim::surface_sample::position);
+    constexpr double shift = 0.002, half = 0.4;
+    for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, 0.8)}) {
+        gnomon::alignment found;
+        rec::detail::add_shift_of_edges(found, model, up, shift);
+        const Eigen::Vector3d level = up.cross(Eigen::Vector3d(0, 1, 0)), side(0, 1, 0);
+        const auto deviation = [&](int first, const Eigen::Vector3d& along) {
+            const Eigen::Matrix3d block = found.covariance.block<3, 3>(first, first);
+            return std::sqrt(std::max(0.0, along.dot(block * along)));
+        };
+        EXPECT_NEAR(deviation(0, up), shift / half, 0.05 * shift / half);
+        EXPECT_NEAR(deviation(0, level), 0.0, 1e-9);
+        EXPECT_NEAR(deviation(3, up), 0.0, 1e-9);
+        EXPECT_NEAR(deviation(3, level), shift, 1e-9);
+        EXPECT_NEAR(deviation(3, side), shift, 1e-9);
+        const auto once = found.covariance;
+        rec::detail::add_shift_of_edges(found, model, up, shift);
+        EXPECT_NEAR(found.covariance(4, 4), 2.0 * once(4, 4), 1e-12);
+    }
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The points of an object that whole beams hit. A beam at an edge returns the mean range
-/// of two faces, or of one and of things behind it: such points shift the pose of an object by
-/// millimeters, mostly away from the sensor. So do those that beams at the edge of something in
-/// front of the object return, which only the scan shows to be mixed.
+/// The points of an object that whole beams hit, and how certain these make its pose. A beam at an
+/// edge returns the mean range of two faces, or of one and of things behind it: such points shift
+/// the pose of an object by millimeters, mostly away from the sensor. So do those that beams at the
+/// edge of something in front of the object return, which only the scan shows to be mixed.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +21,7 @@
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/features/alignment.hpp>
 #include <gnomon/filters/remove_mixed_points.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
@@ -117,6 +118,25 @@ struct whole_beams {
             if (!is_at_edge(model, x, normal, 0.5 * width, near)) found.points.push_back(i);
         });
     return found;
+}
+
+/// Adds to the covariance of an object that stands on the ground what no number of points takes
+/// away: its edges are seen off by an unknown shift, which moves it, and turns it by as much over
+/// half of its size.
+/// @param found  its pose, in the frame of the scan
+/// @param up     the normal of the ground
+/// @param shift  standard deviation [m]
+inline void add_shift_of_edges(alignment& found, const surface_model& model,
+                               const Eigen::Vector3d& up, double shift) {
+    const Eigen::Vector3d size = gnomon::detail::difference(model.high(), model.low());
+    const double half = 0.25 * (size.x() + size.y()), turn = shift / half;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const double upright = up[i] * up[j];
+            found.covariance(i, j) += turn * turn * upright;
+            found.covariance(3 + i, 3 + j) += shift * shift * ((i == j ? 1.0 : 0.0) - upright);
+        }
+    }
 }
 
 }  // namespace gnomon::recognition::detail
