@@ -113,7 +113,8 @@ view_set in_parts_and_whole(const scan_set& scans) {
                   .versions = 2 * in_parts.versions};
     gnomon::threads{}(in_parts.views.size(), [&](std::size_t i) {
         const gnomon::scan& scan = scans.scans[i];
-        both.views[2 * i] = in_parts.views[i];
+        both.views[2 * i] = both.views[2 * i + 1] = in_parts.views[i];
+        if (in_parts.views[i].parts.empty()) return;
         both.views[2 * i + 1] =
             view_of_parts(scan, gnomon::segments(std::vector<std::int32_t>(scan.size(), 0)),
                           gnomon::constant_noise{scans.sigma});

@@ -79,12 +79,14 @@ inline std::vector<sim::furniture_model> clutter(std::size_t pieces, std::uint64
     return all;
 }
 
-/// Adds models as examples of one class.
-/// @param views  of each model
+/// Adds a model as an example of a class, with a view at least.
+inline void add_example(std::vector<example>& all, std::string_view name,
+                        sim::furniture_model model, std::size_t views) {
+    all.push_back({std::string(name), std::move(model), std::max<std::size_t>(1, views)});
+}
 inline void add_examples(std::vector<example>& all, std::string_view name,
                          std::vector<sim::furniture_model> models, std::size_t views) {
-    for (auto& model : models)
-        all.push_back({std::string(name), std::move(model), std::max<std::size_t>(1, views)});
+    for (auto& model : models) add_example(all, name, std::move(model), views);
 }
 
 /// Adds what is background, with the number of views that three models have.
@@ -101,7 +103,7 @@ inline void add_office(std::vector<example>& all, const options& o) {
     for (auto& model : sim::furniture_models()) {
         if (model.name == "stool") continue;
         const bool is_chair = std::holds_alternative<sim::chair>(model.piece);
-        add_examples(all, is_chair ? "chair" : "table", {std::move(model)}, views);
+        add_example(all, is_chair ? "chair" : "table", std::move(model), views);
     }
     add_examples(all, "chair", sim::office_chairs(16, o.seed), views);
     add_examples(all, "table", sim::office_tables(16, o.seed), views);
@@ -112,7 +114,7 @@ inline void add_office(std::vector<example>& all, const options& o) {
 }  // namespace detail
 
 /// The models that the options name, in one order for all runs, and background: the folder
-/// "background" of the files if there is one, else clutter.
+/// "background" of the files if there is one, else clutter; for offices both.
 /// @throws gnomon::error  if a file cannot be read
 /// @throws usage_error    for mesh files, without Assimp
 inline std::vector<example> examples_of(const options& o) {
@@ -120,10 +122,10 @@ inline std::vector<example> examples_of(const options& o) {
     if (o.office) detail::add_office(all, o);
     if (!o.models.empty()) {
         for (auto& file : common::furniture_in("--models", o.models, o.y_up))
-            detail::add_examples(all, file.class_name, {std::move(file.model)}, o.views);
+            detail::add_example(all, file.class_name, std::move(file.model), o.views);
     } else if (!o.office) {
         for (auto& model : sim::furniture_models())
-            detail::add_examples(all, model.name, {model}, o.views);
+            detail::add_example(all, model.name, model, o.views);
     }
     const auto is_background = [](const example& e) {
         return e.name == gnomon::recognition::background_name;

@@ -25,10 +25,11 @@ into the file MODEL (JSON).
                       with the name of the folder. The class of the folder "background"
                       stands for whatever is no object; without that folder it is learned
                       from built-in cupboards, cartons, bins and pieces of walls
-  --office            the classes "chair" and "table" in place of the built-in furniture: this
-                      and office chairs, desks with things on them, and side tables, of random
-                      sizes; classes of --models are learned, too, and files of other chairs
-                      and tables are to be in folders of these names
+  --office            learns the classes "chair" and "table": the built-in furniture but the
+                      stool, and office chairs, desks and side tables of random sizes, most
+                      tables with things on them, by N / 4 scans of each; and more clutter as
+                      background. Files of --models are learned in addition, by N scans of
+                      each: put those of other chairs into a folder named chair
   --y-up              the y axis of the files points up, not z
   --views N           scans of each model (40)
   --seed N            of all that is random (1)

@@ -103,10 +103,10 @@ TEST(whole_beams, points_of_mixed_cells_are_left_out) {
 }
 
 /// The shift is along the ground and the turn about its normal, whatever the axes of the scan are,
-/// and the turn is as large as the shift of the ends of an object of equal edges.
+/// and the turn is the shift over half of the mean side.
 TEST(whole_beams, shifts_of_edges_are_added_along_the_ground) {
     const auto samples =
-        sim::sample_surface({"cube", sim::table{.length = 0.8, .width = 0.8}}, {.spacing = 0.02});
+        sim::sample_surface({"table", sim::table{.length = 1.2, .width = 0.4}}, {.spacing = 0.02});
     const rec::surface_model model(samples, samples, 0.02, std::nullopt,
                                    &sim::surface_sample::position);
     constexpr double shift = 0.002, half = 0.4;
@@ -127,6 +127,12 @@ TEST(whole_beams, shifts_of_edges_are_added_along_the_ground) {
         rec::detail::add_shift_of_edges(found, model, up, shift);
         EXPECT_NEAR(found.covariance(4, 4), 2.0 * once(4, 4), 1e-12);
     }
+    // Of a single sample nothing is infinite.
+    const std::vector<sim::surface_sample> one(samples.begin(), samples.begin() + 1);
+    const rec::surface_model point(one, one, 0.02, std::nullopt, &sim::surface_sample::position);
+    gnomon::alignment found;
+    rec::detail::add_shift_of_edges(found, point, Eigen::Vector3d(0, 0, 1), shift);
+    EXPECT_NEAR(found.covariance(2, 2), std::pow(shift / 0.02, 2), 1e-12);
 }
 
 }  // namespace

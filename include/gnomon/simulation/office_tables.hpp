@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Models of desks and side tables, to learn what stands in offices: on legs or panels, each of a
-/// random size, and with things on it. A scan of a real one is never of the table alone.
+/// random size, most with things on them, as real ones have in scans.
 ///
 ///     for (const auto& model : gnomon::simulation::office_tables(16, 1)) learn(model);
 #pragma once
@@ -41,7 +41,7 @@ namespace detail {
 }
 
 /// Puts boxes on a table, most of them flat as papers and keyboards, the others as high as screens.
-/// They may lie within each other.
+/// They may intersect.
 inline void add_things(scene& world, std::int32_t object, const table& on, std::uint64_t count,
                        random_stream& random) {
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -58,8 +58,8 @@ inline void add_things(scene& world, std::int32_t object, const table& on, std::
 
 }  // namespace detail
 
-/// Desks and side tables in turns, all by the name "office table", in the frame of furniture: they
-/// stand on z = 0, their length along x. Up to five things are on a desk, up to two on a side
+/// Desks and side tables, alternating, all by the name "office table", in the frame of furniture:
+/// they stand on z = 0, their length along x. Up to five things are on a desk, up to two on a side
 /// table, as parts of it. More tables do not change those that are there.
 /// Complexity: O(n).
 [[nodiscard]] inline std::vector<furniture_model> office_tables(std::size_t n, std::uint64_t seed) {

@@ -120,16 +120,17 @@ struct whole_beams {
     return found;
 }
 
-/// Adds to the covariance of an object that stands on the ground what no number of points takes
-/// away: its edges are seen off by an unknown shift, which moves it, and turns it by as much over
-/// half of its size.
+/// Adds to the covariance of an object on the ground what does not become less with more points: an
+/// unknown shift of its edges, which moves it along the ground, and turns it about the vertical by
+/// the shift over half of its mean side.
 /// @param found  its pose, in the frame of the scan
 /// @param up     the normal of the ground
 /// @param shift  standard deviation [m]
 inline void add_shift_of_edges(alignment& found, const surface_model& model,
                                const Eigen::Vector3d& up, double shift) {
     const Eigen::Vector3d size = gnomon::detail::difference(model.high(), model.low());
-    const double half = 0.25 * (size.x() + size.y()), turn = shift / half;
+    const double half = std::max(model.spacing(), 0.25 * (size.x() + size.y()));
+    const double turn = shift / half;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             const double upright = up[i] * up[j];
