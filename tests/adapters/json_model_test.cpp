@@ -17,6 +17,7 @@
 #include <boost/hana/tuple.hpp>
 #include <gtest/gtest.h>
 
+#include "io/io_test_support.hpp"
 #include <gnomon/adapters/json_model.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
@@ -75,7 +76,7 @@ const rec::object_recognizer<>& small_model() {
 }
 
 std::string model_file(const std::string& name) {
-    return testing::TempDir() + "json_model_" + name + ".json";
+    return io_test::scratch_path(name + ".json");
 }
 
 std::string text_of(const rec::object_recognizer<>& model) {
