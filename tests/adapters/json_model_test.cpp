@@ -75,9 +75,7 @@ const rec::object_recognizer<>& small_model() {
     return model;
 }
 
-std::string model_file(const std::string& name) {
-    return io_test::scratch_path(name + ".json");
-}
+std::string model_file(const std::string& name) { return io_test::scratch_path(name + ".json"); }
 
 std::string text_of(const rec::object_recognizer<>& model) {
     const std::string path = model_file("text");
