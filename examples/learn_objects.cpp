@@ -42,9 +42,9 @@ void add_views(std::vector<rec::view>& views, const gnomon::scan& scan, double s
                                             .noise = gnomon::constant_noise{sigma},
                                             .gap = rec::infinite_gap};
     auto seen = rec::perceive_views(scan, alone).views;
-    const gnomon::segments whole(std::vector<std::int32_t>(scan.size(), 0));
     if (seen.empty()) return;
     std::ranges::move(seen, std::back_inserter(views));
+    const gnomon::segments whole(std::vector<std::int32_t>(scan.size(), 0));
     std::ranges::move(rec::views_of_segments(scan, whole, alone), std::back_inserter(views));
 }
 // [learn_views]

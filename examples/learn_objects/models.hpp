@@ -84,6 +84,7 @@ inline void add_example(std::vector<example>& all, std::string_view name,
                         sim::furniture_model model, std::size_t views) {
     all.push_back({std::string(name), std::move(model), std::max<std::size_t>(1, views)});
 }
+/// The same for several models.
 inline void add_examples(std::vector<example>& all, std::string_view name,
                          std::vector<sim::furniture_model> models, std::size_t views) {
     for (auto& model : models) add_example(all, name, std::move(model), views);
@@ -97,7 +98,8 @@ inline void add_background(std::vector<example>& all, const options& o) {
 }
 
 /// Adds chairs, tables and clutter of offices. There are many models, so that a quarter of the
-/// views of each is enough. The stool is none of these.
+/// views of each is enough; how many was chosen on a real office (docs/results/chapter5.md). The
+/// stool is none of these.
 inline void add_office(std::vector<example>& all, const options& o) {
     const std::size_t views = o.views / 4;
     for (auto& model : sim::furniture_models()) {
