@@ -3444,8 +3444,6 @@ class place_set {
     [[nodiscard]] bool meets(const leaf_subtree& node) const {
         return before_[node.first] != before_[node.last];
     }
-    /// The number of places of the set in the leaves before this one.
-    [[nodiscard]] std::size_t before(std::size_t leaf) const { return before_[leaf]; }
     /// The number of places of the set before this one.
     [[nodiscard]] std::size_t rank(std::size_t place) const {
         const std::size_t leaf = place / leaf_tree::leaf_size;
@@ -3612,17 +3610,18 @@ class tree_query {
         std::size_t depth = 0;
         stack[depth++] = {tree_.root(), bound(tree_.root())};
         while (depth > 0) {
-            const auto [node, squared] = stack[--depth];
-            if (is_beyond(squared) || holds_only_later_ties(node)) continue;
-            if (question_.among != nullptr && !question_.among->meets(node)) continue;
-            if (node.is_leaf()) {
-                read(node.first);
-                continue;
+            pending at = stack[--depth];
+            while (may_be_wanted(at)) {  // down to a leaf
+                if (at.node.is_leaf()) {
+                    read(at.node.first);
+                    break;
+                }
+                const auto [left, right] = at.node.children();
+                const pending a{left, bound(left)}, b{right, bound(right)};
+                const bool is_left_nearer = a.squared <= b.squared;
+                stack[depth++] = is_left_nearer ? b : a;
+                at = is_left_nearer ? a : b;
             }
-            const auto [left, right] = node.children();
-            const pending a{left, bound(left)}, b{right, bound(right)};
-            stack[depth++] = a.squared <= b.squared ? b : a;
-            stack[depth++] = a.squared <= b.squared ? a : b;
         }
         if (found_.size() > most_) drop_farthest();
     }
@@ -3637,6 +3636,8 @@ class tree_query {
     static constexpr double margin = 1.0 + 1e-12;
     static constexpr double tie_margin = 1.0 + 2e-9;  // more than that of size_with_ties
 
+    static constexpr std::size_t few = 16;  // candidates that insertion keeps; performance only
+
     [[nodiscard]] double bound(const leaf_tree::subtree& node) const {
         const leaf_box& box = tree_.box(node);
         if constexpr (requires { metric_.lower_bound(at_, box); }) {
@@ -3645,8 +3646,13 @@ class tree_query {
         }
         std::array<double, 3> gap;
         for (std::size_t a = 0; a < 3; ++a)
-            gap[a] = std::max({box.low[a] - at_[a], at_[a] - box.high[a], 0.0});
+            gap[a] = std::max(std::max(box.low[a] - at_[a], at_[a] - box.high[a]), 0.0);
         return metric_.squared(gap[0], gap[1], gap[2]);
+    }
+
+    [[nodiscard]] bool may_be_wanted(const pending& p) const {
+        return !is_beyond(p.squared) && !holds_only_later_ties(p.node) &&
+               (question_.among == nullptr || question_.among->meets(p.node));
     }
 
     [[nodiscard]] bool is_beyond(double squared) const {
@@ -3670,14 +3676,38 @@ class tree_query {
         for (std::size_t l = 0; l < squared.size(); ++l)
             squared[l] = metric_.squared(at_[0] - x[l], at_[1] - y[l], at_[2] - z[l]);
         const std::size_t size = std::min(squared.size(), tree_.size() - begin);
-        for (std::size_t l = 0; l < size; ++l) {
-            if (squared[l] > limit_) continue;
+        std::uint32_t within = 0;  // a mask first: branches would often be predicted wrongly
+        for (std::size_t l = 0; l < squared.size(); ++l)
+            within |= static_cast<std::uint32_t>(squared[l] <= limit_) << l;
+        within &= ~std::uint32_t{0} >> (squared.size() - size);
+        for (; within != 0; within &= within - 1) {
+            const auto l = static_cast<std::size_t>(std::countr_zero(within));
             const point_index i = tree_.index()[begin + l];
             if (i == question_.except) continue;
             if (question_.among != nullptr && !question_.among->contains(begin + l)) continue;
-            found_.push_back({squared[l], i});
+            if (most_ > few)
+                found_.push_back({squared[l], i});
+            else
+                insert({squared[l], i});
         }
-        if (found_.size() >= full_) drop_farthest();
+        if (most_ > few) {
+            if (found_.size() >= full_) drop_farthest();
+        } else if (found_.size() == most_) {
+            last_ = found_.back();
+            tighten();
+        }
+    }
+
+    /// Adds one of few candidates, which are in canonical order, or drops it if it is the farthest.
+    void insert(const neighbor& q) {
+        if (found_.size() < most_)
+            found_.push_back(q);
+        else if (!(q < found_.back()))
+            return;
+        neighbor* const first = found_.data();
+        neighbor* at = first + (found_.size() - 1);
+        for (; at != first && q < at[-1]; --at) *at = at[-1];
+        *at = q;
     }
 
     /// Keeps the nearest `most_` candidates.
@@ -3687,19 +3717,24 @@ class tree_query {
         };
         put_in_place(most_ - 1);
         found_.resize(most_);
-        last_ = found_.back();
+        last_ = found_.back();  // before the k-th is put in place
+        if (most_ > question_.k) put_in_place(question_.k - 1);
+        tighten();
+    }
+
+    /// Leaves out what is farther than the nearest `most_` candidates. Precondition: the farthest
+    /// of them is known, and the k-th is in place.
+    void tighten() {
         has_last_ = true;
         double kth = last_.squared_distance;
-        if (most_ > question_.k) {
-            put_in_place(question_.k - 1);
+        if (most_ > question_.k)
             kth = std::min(kth, tie_margin * found_[question_.k - 1].squared_distance);
-        }
         limit_ = std::min(limit_, kth);
         horizon_ = std::min(horizon_, kth * shrink_);
     }
 
     void finish() {
-        std::sort(found_.data(), found_.data() + found_.size());
+        if (most_ > few) std::sort(found_.data(), found_.data() + found_.size());
         if (found_.size() <= question_.k) return;
         found_.resize(question_.ties == tie_rule::all ? size_with_ties(found_, question_.k, most_)
                                                       : question_.k);
@@ -3731,30 +3766,6 @@ template <class Allocator>
 void search_tree_unsorted(const leaf_tree& tree, const Eigen::Vector3d& p,
                           const tree_question& question, std::vector<neighbor, Allocator>& found) {
     tree_query(tree, p, question, canonical_metric{}, found).collect();
-}
-
-/// Calls visit(begin, end) for each leaf that is at most `radius` [m] from p and has places of a
-/// set, in the order of the tree: these places are number `begin` to before `end` of the set.
-void for_each_leaf_within(const leaf_tree& tree, const place_set& among, const Eigen::Vector3d& p,
-                          double radius, auto&& visit) {
-    if (tree.size() == 0) return;
-    const std::array<double, 3> at{p[0], p[1], p[2]};
-    const leaf_box here{at, at};
-    const double limit = radius * radius;
-    std::array<leaf_subtree, 64> stack;
-    std::size_t depth = 0;
-    stack[depth++] = tree.root();
-    while (depth > 0) {
-        const leaf_subtree node = stack[--depth];
-        if (!among.meets(node) || tree.box(node).squared_distance_to(here) > limit) continue;
-        if (!node.is_leaf()) {
-            const auto [left, right] = node.children();
-            stack[depth++] = right;
-            stack[depth++] = left;
-            continue;
-        }
-        visit(among.before(node.first), among.before(node.last));
-    }
 }
 
 }  // namespace gnomon::detail
@@ -20317,6 +20328,11 @@ class ray_sphere {
         return index_.within(index_[i], reach);
     }
 
+    /// The same in no order, in the memory of `found`.
+    void within_into(scratch<neighbor>& found, std::size_t i, double reach) const {
+        search_tree_unsorted(index_.tree(), index_[i], {.squared_radius = reach * reach}, found);
+    }
+
     /// The distance to the k-th other ray; infinite where there are fewer.
     [[nodiscard]] double distance_of(std::size_t i, std::size_t k) const {
         const auto nearest = index_.nearest(index_[i], k + 1);
@@ -20329,7 +20345,9 @@ class ray_sphere {
     [[nodiscard]] bool is_surrounded(std::size_t i, double reach) const {
         const Eigen::Vector3d u = orthogonal(rays_[i]), v = cross(rays_[i], u);
         scratch<double> azimuths;
-        for (const neighbor& q : within(i, reach)) {
+        scratch<neighbor> near;
+        within_into(near, i, reach);
+        for (const neighbor& q : near) {
             // Other echoes of the same ray have no direction from it.
             if (q.squared_distance < same_ray * same_ray) continue;
             if (std::abs(ranges_[q.index] - ranges_[i]) > max_jump_) continue;
@@ -20379,7 +20397,7 @@ class raster_reach {
         scratch<std::size_t> some;
         for (std::size_t i = 0; i < rays.size(); ++i)  // at random: steps may hit a border always
             if (rays.has_ray(i) && random_stream(i).bits() % thinning == 0) some.push_back(i);
-        usual_ = of_most(rays, some);
+        usual_ = of_most(rays, some, run);
         if (usual_ == 0.0) return;
         std::vector<Eigen::Vector3d> ends(some.size());
         scratch<double> own(some.size());
@@ -20434,22 +20452,29 @@ class raster_reach {
 
     /// The reach within which most of these rays are surrounded by others; 0 if there is none, as
     /// in a single scan line.
-    [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some) {
-        scratch<double> nearest, to_many;
+    template <execution X>
+    [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some,
+                                        const X& run) {
         constexpr std::size_t many = 1000, stride = 32;  // performance only: no raster has as many
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            nearest.push_back(rays.distance_of(some[k], 4));  // formula: the directions of a raster
-            if (k % stride == 0) to_many.push_back(rays.distance_of(some[k], many));
-        }
+        scratch<double> nearest(some.size()), to_many((some.size() + stride - 1) / stride);
+        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                nearest[k] = rays.distance_of(some[k], 4);  // formula: the directions of a raster
+                if (k % stride == 0) to_many[k / stride] = rays.distance_of(some[k], many);
+            }
+        });
         if (nearest.empty()) return 0.0;
+        scratch<std::uint8_t> is_surrounded(some.size());
         // [rad] Coarser than any scanner, and smaller where rays form no raster, such as those from
         // a distant origin where view points are unknown; performance.
         const double widest = std::min(0.2, quantile_of(to_many, 0.5));
         for (double reach = growth * std::max(quantile_of(nearest, 0.5), ray_sphere::same_ray);
              reach < widest; reach *= growth) {
-            const auto surrounded = std::count_if(some.begin(), some.end(), [&](std::size_t i) {
-                return rays.is_surrounded(i, reach);
+            for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t k = begin; k < end; ++k)
+                    is_surrounded[k] = rays.is_surrounded(some[k], reach) ? 1 : 0;
             });
+            const auto surrounded = std::count(is_surrounded.begin(), is_surrounded.end(), 1);
             if (2 * static_cast<std::size_t>(surrounded) >= some.size()) return reach;
         }
         return 0.0;
@@ -20544,15 +20569,17 @@ class mixed_point_test {
         const double own = rays_.range_of(i);
         const double sigma = options_.noise.along(scaled(own, rays_.ray_of(i)));
         const double step = std::max(options_.min_step, deviations * sigma);
-        const auto near =
-            rays_.within(i, 0.5 * options_.divergence.radians() + reach_.around(rays_, i));
+        const double reach = 0.5 * options_.divergence.radians() + reach_.around(rays_, i);
+        scratch<neighbor> near;
+        rays_.within_into(near, i, reach);
         double nearest = own, farthest = own;
         for (const neighbor& q : near) {
             nearest = std::min(nearest, rays_.range_of(q.index));
             farthest = std::max(farthest, rays_.range_of(q.index));
         }
-        return nearest < own - step && farthest > own + step &&
-               rms_about_plane(rays_, i, near) > uneven * step;
+        if (!(nearest < own - step && farthest > own + step)) return false;
+        std::sort(near.begin(), near.end());  // sums depend on the order
+        return rms_about_plane(rays_, i, near) > uneven * step;
     }
 
   private:
@@ -26580,22 +26607,29 @@ class matched_surface {
         // for boards of less than a fifth of the distance of a point.)
         constexpr std::size_t first = 12, most = 64;
         list.searched = x;
+        const double radius = slack * limit;
+        const auto is_left_out = [&](const neighbor& q) {
+            const Eigen::Vector3d n = normals_[q.index].normal;
+            return !is_unit(n) || !is_compatible(n, ray, own);
+        };
         for (const std::size_t k : {first, most}) {
-            list.count = 0;
-            samples_.nearest_within_into(found, x, k, slack * limit);
+            search_tree_unsorted(samples_.tree(), x, {.k = k, .squared_radius = radius * radius},
+                                 found);
+            const bool are_all = found.size() < k;
             list.reach =
-                found.size() < k ? slack * limit : std::sqrt(found.back().squared_distance);
-            for (const neighbor& q : found) {
-                if (!is_unit(normals_[q.index].normal) ||
-                    !is_compatible(normals_[q.index].normal, ray, own))
-                    continue;
-                list.of[list.count++] = {samples_[q.index], normals_[q.index].normal, q.index};
-                if (list.count < list.of.size()) continue;
-                list.reach = std::sqrt(q.squared_distance);
-                break;
-            }
-            if (list.count > 0 || found.size() < k) break;
+                are_all ? radius
+                        : std::sqrt(std::max_element(found.begin(), found.end())->squared_distance);
+            std::erase_if(found, is_left_out);
+            if (!found.empty() || are_all) break;
         }
+        std::sort(found.data(), found.data() + found.size());
+        list.count = std::min(found.size(), list.of.size());
+        for (std::size_t i = 0; i < list.count; ++i) {
+            const point_index q = found[i].index;
+            list.of[i] = {samples_[q], normals_[q].normal, q};
+        }
+        if (list.count == list.of.size())
+            list.reach = std::sqrt(found[list.count - 1].squared_distance);
         // Also where nothing is compatible the answer is that of this search.
         list.reach = std::max(list.reach, list.count == 0 ? limit : 0.0);
     }

@@ -28,6 +28,10 @@ struct oriented_point {
 };
 using oriented_cloud = std::vector<oriented_point>;
 
+struct oriented_normal {
+    Eigen::Vector3d normal;
+};
+
 /// The faces of boxes: a seat, a back and two legs.
 const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> chair_boxes{
     {{-0.22, -0.23, 0.42}, {0.23, 0.22, 0.47}},
@@ -334,6 +338,31 @@ TEST(align_to_surface, compares_normals_of_points) {
     EXPECT_EQ(bad.status, outcome::too_few_points);
     EXPECT_EQ(bad.inliers, 0u);
     EXPECT_TRUE(bad.covariance.allFinite());
+}
+
+TEST(align_to_surface, finds_the_front_of_a_board_with_many_samples_on_its_back) {
+    // Of each point the 12 nearest samples are on the back, 1 cm behind it, but not all 64.
+    std::vector<Eigen::Vector3d> samples, points;
+    std::vector<oriented_normal> normals, own;
+    const auto grid = [](double spacing, double z, Eigen::Vector3d n, auto& at, auto& of) {
+        for (double x = -0.1; x < 0.1; x += spacing)
+            for (double y = -0.1; y < 0.1; y += spacing) {
+                at.push_back({x, y, z});
+                of.push_back({n});
+            }
+    };
+    grid(0.02, 0.0, {0, 0, 1}, samples, normals);
+    grid(0.003, -0.01, {0, 0, -1}, samples, normals);
+    grid(0.02, 0.0, {0, 0, 1}, points, own);
+    for (Eigen::Vector3d& p : points) p += Eigen::Vector3d(0.01, 0.01, 0.001);  // between samples
+    const rigid_motion sensor{Eigen::Matrix3d::Identity(), {0, 0, 2}};
+    for (Eigen::Vector3d& p : points) p = sensor.point_in(p);
+    gnomon::spatial_index seen(points);
+    seen.viewpoints = Eigen::Vector3d(0, 0, 0);
+    const auto found = gnomon::align_to_surface(seen, own, samples, normals, sensor);
+    EXPECT_EQ(found.inliers, points.size());
+    EXPECT_NEAR(found.pose.position.z(), 1.999, 1e-6);
+    EXPECT_NEAR(found.rms, 0.0, 1e-6);
 }
 
 TEST(align_to_surface, names_too_few_points) {

@@ -76,8 +76,9 @@ TEST(spatial_index, nearest_equals_brute_force_ties_included) {
         for (const Eigen::Vector3d& p : positions_about(points)) {
             const auto all = by_brute_force(points, p);
             for (const std::size_t k :
-                 {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{50},
-                  points.size() + 3, ~std::size_t{0} / 2 + 1, ~std::size_t{0}}) {
+                 {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{8}, std::size_t{9},
+                  std::size_t{16}, std::size_t{17}, std::size_t{50}, points.size() + 3,
+                  ~std::size_t{0} / 2 + 1, ~std::size_t{0}}) {
                 for (const tie_rule ties : {tie_rule::by_index, tie_rule::all}) {
                     ASSERT_EQ(index.nearest(p, k, {.ties = ties}), first_of(all, k, ties));
                 }

@@ -91,6 +91,34 @@ TEST(object_hypotheses, are_one_at_each_pose) {
     EXPECT_GT(found[0].evidence.samples, 500u);  // verified carefully
 }
 
+/// A better pose is looked for with fewer counts, but the answer is that of all of them.
+TEST(object_hypotheses, are_better_as_by_complete_counts) {
+    const chair_in_scene chair;
+    const auto& scene = chair.scene();
+    const auto& model = chair.surfaces()[0];
+    const auto rough = rec::detail::scene_evidence::rough;
+    std::size_t better = 0, others = 0;
+    for (const double from : {0.0, 0.05, 0.3, 9.0}) {
+        const auto than = scene.aligned(
+            0, where_chair_is * rigid_motion::on_ground(from, 0.0, degrees(0.0)), model, rough);
+        for (const double x : {-0.2, -0.08, 0.0, 0.08, 7.0}) {
+            const auto start = where_chair_is * rigid_motion::on_ground(x, 0.02, degrees(50.0 * x));
+            const auto complete = scene.aligned(0, start, model, rough);
+            const auto found = scene.aligned_better(than, start, model, rough);
+            const bool is_better = rec::detail::fits_better(complete.evidence, than.evidence);
+            ASSERT_EQ(found.has_value(), is_better);
+            ++(is_better ? better : others);
+            if (!is_better) continue;
+            EXPECT_EQ(found->aligned.pose.position, complete.aligned.pose.position);
+            EXPECT_EQ(found->probability, complete.probability);
+            EXPECT_EQ(found->evidence.supported, complete.evidence.supported);
+            EXPECT_EQ(found->evidence.explained, complete.evidence.explained);
+        }
+    }
+    EXPECT_GT(better, 0u);
+    EXPECT_GT(others, 0u);
+}
+
 /// Far from all points there is none.
 TEST(object_hypotheses, are_none_where_nothing_is) {
     const chair_in_scene chair;

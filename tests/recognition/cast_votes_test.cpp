@@ -56,8 +56,9 @@ TEST(cast_votes, sum_at_any_pose_as_their_definition_says) {
     for (int p = 0; p < parts; ++p) {
         ground = votes.begin_part(floor_plane, above_floor);
         for (int k = 0; k < 12; ++k) {
+            const double turns = 2.0 * std::numbers::pi * (k % 5 - 2);  // full ones do not matter
             const plain_vote v{random.uniform(-0.6, 0.6), random.uniform(-0.2, 0.2),
-                               random.uniform(-0.4, 0.4), random.uniform(0.0, 0.6), p};
+                               turns + random.uniform(-0.4, 0.4), random.uniform(0.0, 0.6), p};
             plain.push_back(v);
             votes.add(1, v.x, v.y, v.heading, v.weight);
         }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/recognition/part_features.hpp>
@@ -131,6 +132,22 @@ TEST(part_votes, of_one_view_find_several_objects) {
                    (p.pose.position - pose.position).norm() < 0.01 &&
                    turn_between(p.pose, pose) < 1.0;
         }));
+    }
+}
+
+TEST(part_votes, do_not_depend_on_threads) {
+    const auto votes = votes_for_chair_and_table();
+    const std::vector views{
+        view_of_boards(chair_boards, rigid_motion::on_ground(1.0, 0.0, degrees(10))),
+        view_of_boards(table_boards, rigid_motion::on_ground(3.0, 1.0, degrees(70)))};
+    const auto alone = votes.places(views);
+    const auto places = votes.votes(views, gnomon::threads{3}).places();
+    ASSERT_EQ(places.size(), alone.size());
+    ASSERT_FALSE(alone.empty());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        EXPECT_EQ(places[i].object, alone[i].object);
+        EXPECT_EQ(places[i].pose.position, alone[i].pose.position);
+        EXPECT_EQ(places[i].votes, alone[i].votes);
     }
 }
 

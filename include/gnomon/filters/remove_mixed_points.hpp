@@ -103,15 +103,17 @@ class mixed_point_test {
         const double own = rays_.range_of(i);
         const double sigma = options_.noise.along(scaled(own, rays_.ray_of(i)));
         const double step = std::max(options_.min_step, deviations * sigma);
-        const auto near =
-            rays_.within(i, 0.5 * options_.divergence.radians() + reach_.around(rays_, i));
+        const double reach = 0.5 * options_.divergence.radians() + reach_.around(rays_, i);
+        scratch<neighbor> near;
+        rays_.within_into(near, i, reach);
         double nearest = own, farthest = own;
         for (const neighbor& q : near) {
             nearest = std::min(nearest, rays_.range_of(q.index));
             farthest = std::max(farthest, rays_.range_of(q.index));
         }
-        return nearest < own - step && farthest > own + step &&
-               rms_about_plane(rays_, i, near) > uneven * step;
+        if (!(nearest < own - step && farthest > own + step)) return false;
+        std::sort(near.begin(), near.end());  // sums depend on the order
+        return rms_about_plane(rays_, i, near) > uneven * step;
     }
 
   private:

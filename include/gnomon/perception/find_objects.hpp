@@ -218,8 +218,8 @@ class object_finder {
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                           {.edge = perceive_views_options{}.cell}, team);
         const detail::scene_evidence scene(
-            cells, visibility(points, {.noise = noise}, team, projection), votes_.votes(seen.views),
-            noise, *seen.ground, team,
+            cells, visibility(points, {.noise = noise}, team, projection),
+            votes_.votes(seen.views, team), noise, *seen.ground, team,
             detail::mixed_cells(points, kept, cells, options.divergence, noise, team, projection));
         f(scene_of{kept, cells, scene});
         return seen;

@@ -27,6 +27,8 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/plane.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/detail/part_place.hpp>
@@ -89,14 +91,22 @@ class part_votes {
     [[nodiscard]] const std::vector<sample>& samples() const { return samples_; }
 
     /// The votes of the parts of all views.
+    /// @param run  `sequential{}` or `threads{n}`; the result does not depend on it
     /// @throws std::invalid_argument  if a view has no ground, or a feature or place is not finite
     /// Complexity: O(p s) for p parts and s samples.
-    [[nodiscard]] cast_votes votes(std::span<const view> views) const {
-        cast_votes all(options_, objects_);
+    template <execution X = sequential>
+    [[nodiscard]] cast_votes votes(std::span<const view> views, const X& run = {}) const {
+        std::vector<std::pair<const part*, const view*>> parts;
         for (const view& v : views) {
             gnomon::detail::require(v.ground.has_value(), "part_votes: a view needs a ground");
-            for (const part& p : v.parts) cast(p, v, all);
+            for (const part& p : v.parts) parts.emplace_back(&p, &v);
         }
+        std::vector<std::vector<alike>> nearest(parts.size());
+        run(parts.size(),
+            [&](std::size_t i) { nearest[i] = nearest_to(*parts[i].first, *parts[i].second); });
+        cast_votes all(options_, objects_);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            cast(*parts[i].first, *parts[i].second->ground, nearest[i], all);
         return all;
     }
 
@@ -106,33 +116,46 @@ class part_votes {
     }
 
   private:
-    /// The votes of one part, by the samples that are most like it.
-    void cast(const part& p, const view& v, cast_votes& all) const {
+    struct alike {
+        double distance;  ///< of features
+        std::size_t sample;
+
+        friend bool operator<(const alike& a, const alike& b) {
+            return a.distance != b.distance ? a.distance < b.distance : a.sample < b.sample;
+        }
+    };
+
+    /// The samples that are most like a part, of each object the nearest ones, nearest first.
+    [[nodiscard]] std::vector<alike> nearest_to(const part& p, const view& v) const {
         const auto f = feature_vector(features_, p, v);
         const weighted_distance<features_per_part> distance{feature_weights(features_)};
-        std::vector<std::vector<std::pair<double, std::size_t>>> alike(objects_);
+        std::vector<std::vector<alike>> of_object(objects_);
         for (std::size_t i = 0; i < samples_.size(); ++i) {
             const double d = distance(f, samples_[i].features);
-            if (d <= options_.max_distance) alike[samples_[i].object].emplace_back(d, i);
+            if (d <= options_.max_distance) of_object[samples_[i].object].push_back({d, i});
         }
-        const detail::part_place place(p, all.begin_part(*v.ground, p.shape.frame.centroid));
-        for (std::size_t o = 0; o < objects_; ++o) {
-            auto& of_object = alike[o];
-            const std::size_t n = std::min(of_object.size(), options_.nearest);
-            std::partial_sort(of_object.begin(), of_object.begin() + static_cast<std::ptrdiff_t>(n),
-                              of_object.end());
-            for (std::size_t k = 0; k < n; ++k) {
-                const sample& s = samples_[of_object[k].second];
-                const double d = of_object[k].first / options_.likeness;
-                const double weight =
-                    std::exp(-0.5 * d * d) / static_cast<double>(options_.nearest);
-                for (int t = 0; t < place.headings; ++t) {
-                    const double turned =
-                        place.heading + 2.0 * std::numbers::pi * t / place.headings;
-                    const double c = std::cos(turned), w = std::sin(turned);
-                    all.add(o, place.at.x() + c * s.ahead - w * s.left,
-                            place.at.y() + w * s.ahead + c * s.left, turned + s.turn, weight);
-                }
+        std::vector<alike> all;
+        for (auto& some : of_object) {
+            const auto n = static_cast<std::ptrdiff_t>(std::min(some.size(), options_.nearest));
+            std::partial_sort(some.begin(), some.begin() + n, some.end());
+            all.insert(all.end(), some.begin(), some.begin() + n);
+        }
+        return all;
+    }
+
+    /// The votes of one part.
+    void cast(const part& p, const plane& ground, const std::vector<alike>& nearest,
+              cast_votes& all) const {
+        const detail::part_place place(p, all.begin_part(ground, p.shape.frame.centroid));
+        for (const alike& q : nearest) {
+            const sample& s = samples_[q.sample];
+            const double d = q.distance / options_.likeness;
+            const double weight = std::exp(-0.5 * d * d) / static_cast<double>(options_.nearest);
+            for (int t = 0; t < place.headings; ++t) {
+                const double turned = place.heading + 2.0 * std::numbers::pi * t / place.headings;
+                const double c = std::cos(turned), w = std::sin(turned);
+                all.add(s.object, place.at.x() + c * s.ahead - w * s.left,
+                        place.at.y() + w * s.ahead + c * s.left, turned + s.turn, weight);
             }
         }
     }

@@ -20,6 +20,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/features/alignment.hpp>
 #include <gnomon/features/detail/movable_cloud.hpp>
+#include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
@@ -122,22 +123,29 @@ class matched_surface {
         // for boards of less than a fifth of the distance of a point.)
         constexpr std::size_t first = 12, most = 64;
         list.searched = x;
+        const double radius = slack * limit;
+        const auto is_left_out = [&](const neighbor& q) {
+            const Eigen::Vector3d n = normals_[q.index].normal;
+            return !is_unit(n) || !is_compatible(n, ray, own);
+        };
         for (const std::size_t k : {first, most}) {
-            list.count = 0;
-            samples_.nearest_within_into(found, x, k, slack * limit);
+            search_tree_unsorted(samples_.tree(), x, {.k = k, .squared_radius = radius * radius},
+                                 found);
+            const bool are_all = found.size() < k;
             list.reach =
-                found.size() < k ? slack * limit : std::sqrt(found.back().squared_distance);
-            for (const neighbor& q : found) {
-                if (!is_unit(normals_[q.index].normal) ||
-                    !is_compatible(normals_[q.index].normal, ray, own))
-                    continue;
-                list.of[list.count++] = {samples_[q.index], normals_[q.index].normal, q.index};
-                if (list.count < list.of.size()) continue;
-                list.reach = std::sqrt(q.squared_distance);
-                break;
-            }
-            if (list.count > 0 || found.size() < k) break;
+                are_all ? radius
+                        : std::sqrt(std::max_element(found.begin(), found.end())->squared_distance);
+            std::erase_if(found, is_left_out);
+            if (!found.empty() || are_all) break;
         }
+        std::sort(found.data(), found.data() + found.size());
+        list.count = std::min(found.size(), list.of.size());
+        for (std::size_t i = 0; i < list.count; ++i) {
+            const point_index q = found[i].index;
+            list.of[i] = {samples_[q], normals_[q].normal, q};
+        }
+        if (list.count == list.of.size())
+            list.reach = std::sqrt(found[list.count - 1].squared_distance);
         // Also where nothing is compatible the answer is that of this search.
         list.reach = std::max(list.reach, list.count == 0 ? limit : 0.0);
     }

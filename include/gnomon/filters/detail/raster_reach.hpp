@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,7 +29,7 @@ class raster_reach {
         scratch<std::size_t> some;
         for (std::size_t i = 0; i < rays.size(); ++i)  // at random: steps may hit a border always
             if (rays.has_ray(i) && random_stream(i).bits() % thinning == 0) some.push_back(i);
-        usual_ = of_most(rays, some);
+        usual_ = of_most(rays, some, run);
         if (usual_ == 0.0) return;
         std::vector<Eigen::Vector3d> ends(some.size());
         scratch<double> own(some.size());
@@ -83,22 +84,29 @@ class raster_reach {
 
     /// The reach within which most of these rays are surrounded by others; 0 if there is none, as
     /// in a single scan line.
-    [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some) {
-        scratch<double> nearest, to_many;
+    template <execution X>
+    [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some,
+                                        const X& run) {
         constexpr std::size_t many = 1000, stride = 32;  // performance only: no raster has as many
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            nearest.push_back(rays.distance_of(some[k], 4));  // formula: the directions of a raster
-            if (k % stride == 0) to_many.push_back(rays.distance_of(some[k], many));
-        }
+        scratch<double> nearest(some.size()), to_many((some.size() + stride - 1) / stride);
+        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                nearest[k] = rays.distance_of(some[k], 4);  // formula: the directions of a raster
+                if (k % stride == 0) to_many[k / stride] = rays.distance_of(some[k], many);
+            }
+        });
         if (nearest.empty()) return 0.0;
+        scratch<std::uint8_t> is_surrounded(some.size());
         // [rad] Coarser than any scanner, and smaller where rays form no raster, such as those from
         // a distant origin where view points are unknown; performance.
         const double widest = std::min(0.2, quantile_of(to_many, 0.5));
         for (double reach = growth * std::max(quantile_of(nearest, 0.5), ray_sphere::same_ray);
              reach < widest; reach *= growth) {
-            const auto surrounded = std::count_if(some.begin(), some.end(), [&](std::size_t i) {
-                return rays.is_surrounded(i, reach);
+            for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t k = begin; k < end; ++k)
+                    is_surrounded[k] = rays.is_surrounded(some[k], reach) ? 1 : 0;
             });
+            const auto surrounded = std::count(is_surrounded.begin(), is_surrounded.end(), 1);
             if (2 * static_cast<std::size_t>(surrounded) >= some.size()) return reach;
         }
         return 0.0;

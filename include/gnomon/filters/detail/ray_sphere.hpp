@@ -18,6 +18,8 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/detail/tree_query.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon::detail {
@@ -65,6 +67,11 @@ class ray_sphere {
         return index_.within(index_[i], reach);
     }
 
+    /// The same in no order, in the memory of `found`.
+    void within_into(scratch<neighbor>& found, std::size_t i, double reach) const {
+        search_tree_unsorted(index_.tree(), index_[i], {.squared_radius = reach * reach}, found);
+    }
+
     /// The distance to the k-th other ray; infinite where there are fewer.
     [[nodiscard]] double distance_of(std::size_t i, std::size_t k) const {
         const auto nearest = index_.nearest(index_[i], k + 1);
@@ -77,7 +84,9 @@ class ray_sphere {
     [[nodiscard]] bool is_surrounded(std::size_t i, double reach) const {
         const Eigen::Vector3d u = orthogonal(rays_[i]), v = cross(rays_[i], u);
         scratch<double> azimuths;
-        for (const neighbor& q : within(i, reach)) {
+        scratch<neighbor> near;
+        within_into(near, i, reach);
+        for (const neighbor& q : near) {
             // Other echoes of the same ray have no direction from it.
             if (q.squared_distance < same_ray * same_ray) continue;
             if (std::abs(ranges_[q.index] - ranges_[i]) > max_jump_) continue;

@@ -54,8 +54,6 @@ class place_set {
     [[nodiscard]] bool meets(const leaf_subtree& node) const {
         return before_[node.first] != before_[node.last];
     }
-    /// The number of places of the set in the leaves before this one.
-    [[nodiscard]] std::size_t before(std::size_t leaf) const { return before_[leaf]; }
     /// The number of places of the set before this one.
     [[nodiscard]] std::size_t rank(std::size_t place) const {
         const std::size_t leaf = place / leaf_tree::leaf_size;

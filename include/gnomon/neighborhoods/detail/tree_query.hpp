@@ -78,17 +78,18 @@ class tree_query {
         std::size_t depth = 0;
         stack[depth++] = {tree_.root(), bound(tree_.root())};
         while (depth > 0) {
-            const auto [node, squared] = stack[--depth];
-            if (is_beyond(squared) || holds_only_later_ties(node)) continue;
-            if (question_.among != nullptr && !question_.among->meets(node)) continue;
-            if (node.is_leaf()) {
-                read(node.first);
-                continue;
+            pending at = stack[--depth];
+            while (may_be_wanted(at)) {  // down to a leaf
+                if (at.node.is_leaf()) {
+                    read(at.node.first);
+                    break;
+                }
+                const auto [left, right] = at.node.children();
+                const pending a{left, bound(left)}, b{right, bound(right)};
+                const bool is_left_nearer = a.squared <= b.squared;
+                stack[depth++] = is_left_nearer ? b : a;
+                at = is_left_nearer ? a : b;
             }
-            const auto [left, right] = node.children();
-            const pending a{left, bound(left)}, b{right, bound(right)};
-            stack[depth++] = a.squared <= b.squared ? b : a;
-            stack[depth++] = a.squared <= b.squared ? a : b;
         }
         if (found_.size() > most_) drop_farthest();
     }
@@ -103,6 +104,8 @@ class tree_query {
     static constexpr double margin = 1.0 + 1e-12;
     static constexpr double tie_margin = 1.0 + 2e-9;  // more than that of size_with_ties
 
+    static constexpr std::size_t few = 16;  // candidates that insertion keeps; performance only
+
     [[nodiscard]] double bound(const leaf_tree::subtree& node) const {
         const leaf_box& box = tree_.box(node);
         if constexpr (requires { metric_.lower_bound(at_, box); }) {
@@ -111,8 +114,13 @@ class tree_query {
         }
         std::array<double, 3> gap;
         for (std::size_t a = 0; a < 3; ++a)
-            gap[a] = std::max({box.low[a] - at_[a], at_[a] - box.high[a], 0.0});
+            gap[a] = std::max(std::max(box.low[a] - at_[a], at_[a] - box.high[a]), 0.0);
         return metric_.squared(gap[0], gap[1], gap[2]);
+    }
+
+    [[nodiscard]] bool may_be_wanted(const pending& p) const {
+        return !is_beyond(p.squared) && !holds_only_later_ties(p.node) &&
+               (question_.among == nullptr || question_.among->meets(p.node));
     }
 
     [[nodiscard]] bool is_beyond(double squared) const {
@@ -136,14 +144,38 @@ class tree_query {
         for (std::size_t l = 0; l < squared.size(); ++l)
             squared[l] = metric_.squared(at_[0] - x[l], at_[1] - y[l], at_[2] - z[l]);
         const std::size_t size = std::min(squared.size(), tree_.size() - begin);
-        for (std::size_t l = 0; l < size; ++l) {
-            if (squared[l] > limit_) continue;
+        std::uint32_t within = 0;  // a mask first: branches would often be predicted wrongly
+        for (std::size_t l = 0; l < squared.size(); ++l)
+            within |= static_cast<std::uint32_t>(squared[l] <= limit_) << l;
+        within &= ~std::uint32_t{0} >> (squared.size() - size);
+        for (; within != 0; within &= within - 1) {
+            const auto l = static_cast<std::size_t>(std::countr_zero(within));
             const point_index i = tree_.index()[begin + l];
             if (i == question_.except) continue;
             if (question_.among != nullptr && !question_.among->contains(begin + l)) continue;
-            found_.push_back({squared[l], i});
+            if (most_ > few)
+                found_.push_back({squared[l], i});
+            else
+                insert({squared[l], i});
         }
-        if (found_.size() >= full_) drop_farthest();
+        if (most_ > few) {
+            if (found_.size() >= full_) drop_farthest();
+        } else if (found_.size() == most_) {
+            last_ = found_.back();
+            tighten();
+        }
+    }
+
+    /// Adds one of few candidates, which are in canonical order, or drops it if it is the farthest.
+    void insert(const neighbor& q) {
+        if (found_.size() < most_)
+            found_.push_back(q);
+        else if (!(q < found_.back()))
+            return;
+        neighbor* const first = found_.data();
+        neighbor* at = first + (found_.size() - 1);
+        for (; at != first && q < at[-1]; --at) *at = at[-1];
+        *at = q;
     }
 
     /// Keeps the nearest `most_` candidates.
@@ -153,19 +185,24 @@ class tree_query {
         };
         put_in_place(most_ - 1);
         found_.resize(most_);
-        last_ = found_.back();
+        last_ = found_.back();  // before the k-th is put in place
+        if (most_ > question_.k) put_in_place(question_.k - 1);
+        tighten();
+    }
+
+    /// Leaves out what is farther than the nearest `most_` candidates. Precondition: the farthest
+    /// of them is known, and the k-th is in place.
+    void tighten() {
         has_last_ = true;
         double kth = last_.squared_distance;
-        if (most_ > question_.k) {
-            put_in_place(question_.k - 1);
+        if (most_ > question_.k)
             kth = std::min(kth, tie_margin * found_[question_.k - 1].squared_distance);
-        }
         limit_ = std::min(limit_, kth);
         horizon_ = std::min(horizon_, kth * shrink_);
     }
 
     void finish() {
-        std::sort(found_.data(), found_.data() + found_.size());
+        if (most_ > few) std::sort(found_.data(), found_.data() + found_.size());
         if (found_.size() <= question_.k) return;
         found_.resize(question_.ties == tie_rule::all ? size_with_ties(found_, question_.k, most_)
                                                       : question_.k);
@@ -197,30 +234,6 @@ template <class Allocator>
 void search_tree_unsorted(const leaf_tree& tree, const Eigen::Vector3d& p,
                           const tree_question& question, std::vector<neighbor, Allocator>& found) {
     tree_query(tree, p, question, canonical_metric{}, found).collect();
-}
-
-/// Calls visit(begin, end) for each leaf that is at most `radius` [m] from p and has places of a
-/// set, in the order of the tree: these places are number `begin` to before `end` of the set.
-void for_each_leaf_within(const leaf_tree& tree, const place_set& among, const Eigen::Vector3d& p,
-                          double radius, auto&& visit) {
-    if (tree.size() == 0) return;
-    const std::array<double, 3> at{p[0], p[1], p[2]};
-    const leaf_box here{at, at};
-    const double limit = radius * radius;
-    std::array<leaf_subtree, 64> stack;
-    std::size_t depth = 0;
-    stack[depth++] = tree.root();
-    while (depth > 0) {
-        const leaf_subtree node = stack[--depth];
-        if (!among.meets(node) || tree.box(node).squared_distance_to(here) > limit) continue;
-        if (!node.is_leaf()) {
-            const auto [left, right] = node.children();
-            stack[depth++] = right;
-            stack[depth++] = left;
-            continue;
-        }
-        visit(among.before(node.first), among.before(node.last));
-    }
 }
 
 }  // namespace gnomon::detail

@@ -41,9 +41,9 @@ namespace gnomon::recognition::detail {
               rigid_motion::on_ground(0.0, step, none), rigid_motion::on_ground(0.0, -step, none),
               rigid_motion::on_ground(0.0, 0.0, turn),
               rigid_motion::on_ground(0.0, 0.0, degrees(-turn.degrees()))}) {
-            found_object next = scene.aligned(best.object, from * other, model, much);
-            if (!fits_better(next.evidence, best.evidence)) continue;
-            best = std::move(next);
+            auto next = scene.aligned_better(best, from * other, model, much);
+            if (!next) continue;
+            best = *std::move(next);
             is_better = true;
         }
         if (!is_better) break;

@@ -38,14 +38,16 @@ namespace gnomon::recognition::detail {
 /// Whether one pose of an object fits clearly better than another: by the samples of its surface
 /// that are there, less those that are not. Those that the sensor saw through count most: at the
 /// true pose there are hardly any, and 3 cm from it up to one of 20.
-[[nodiscard]] inline bool fits_better(const verification& a, const verification& b) {
+/// @param left  samples of the one that are not yet counted: whether it may fit better with them
+[[nodiscard]] inline bool fits_better(const verification& a, const verification& b,
+                                      std::size_t left = 0) {
     constexpr double through = 10.0;  // these two chosen on rooms of seeds 1 to 40
     constexpr double clearly = 4.0;   // samples
     const auto fit = [](const verification& v) {
         return static_cast<double>(v.supported) - static_cast<double>(v.mismatched) -
                through * static_cast<double>(v.seen_through);
     };
-    return fit(a) > fit(b) + clearly;
+    return fit(a) + static_cast<double>(left) > fit(b) + clearly;
 }
 
 }  // namespace gnomon::recognition::detail

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,16 +22,15 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/core/subset_view.hpp>
-#include <gnomon/features/align_to_surface.hpp>
 #include <gnomon/features/alignment.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
-#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/cells_of_object.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
 #include <gnomon/perception/detail/whole_beams.hpp>
@@ -44,7 +44,6 @@
 #include <gnomon/recognition/posterior.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/verification.hpp>
-#include <gnomon/recognition/verify_pose.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -96,27 +95,19 @@ class scene_evidence {
     /// An object, aligned from a pose and verified.
     [[nodiscard]] found_object aligned(std::size_t object, const rigid_motion& start,
                                        const surface_model& model, const effort& much) const {
-        constexpr double margin = 0.10;    // [m]: error of votes; chosen: `reach` of these
-        constexpr double farthest = 0.15;  // [m]: between points at first; chosen: more than that
-        found_object hypothesis;
-        hypothesis.object = object;
-        hypothesis.aligned.pose = start;
-        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
-        std::vector<point_index> inside;
-        for_each_point_in(index_, start, model.low() - around, model.high() + around,
-                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
-        if (inside.size() < fewest) return hypothesis;
-        hypothesis.aligned = alignment_of(inside, much.cells, model, start,
-                                          {.noise = noise_,
-                                           .on_ground = true,
-                                           .max_distance = farthest,
-                                           .max_iterations = much.iterations});
-        const rigid_motion& pose = hypothesis.aligned.pose;
-        hypothesis.evidence = verify_pose(index_, surface_, seen_, model, pose,
-                                          {.noise = noise_, .most = much.samples});
-        hypothesis.votes = votes_.at(object, pose);
-        hypothesis.probability = probability_of(hypothesis);
-        return hypothesis;
+        return *aligned_unless(object, start, model, much,
+                               [](const verification&, std::size_t) { return false; });
+    }
+
+    /// The same object, aligned from another pose, if it fits better there.
+    [[nodiscard]] std::optional<found_object> aligned_better(const found_object& than,
+                                                             const rigid_motion& start,
+                                                             const surface_model& model,
+                                                             const effort& much) const {
+        return aligned_unless(than.object, start, model, much,
+                              [&](const verification& v, std::size_t left) {
+                                  return !fits_better(v, than.evidence, left);
+                              });
     }
 
     /// The alignment of an object that was found, by the cells that whole beams hit. Where these do
@@ -140,7 +131,8 @@ class scene_evidence {
             const auto whole = whole_beams_at(cells_, index_, surface_, is_mixed_, model,
                                               settled.pose, divergence, how.max_distance);
             widest = whole.widest;
-            const auto next = alignment_of(whole.points, careful.cells, model, settled.pose, how);
+            const auto next = alignment_of_cells(cells_, surface_, whole.points, careful.cells,
+                                                 model, settled.pose, how);
             const Eigen::Vector3d moved =
                 difference(next.pose.point_out(found.pose.point_in(found.center)), found.center);
             const double ahead = dot(direction_of(whole.way), moved);
@@ -198,44 +190,50 @@ class scene_evidence {
     /// The cells on the surface of an object.
     [[nodiscard]] std::vector<point_index> cells_on(const surface_model& model,
                                                     const rigid_motion& pose) const {
-        constexpr double margin = 0.03;  // [m]; chosen: spacing of samples, and noise
-        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
-        Eigen::Vector3d low = model.low() - around;
-        low.z() = std::max(low.z(), lowest);
-        std::vector<point_index> on;
-        std::vector<neighbor> nearest;
-        for_each_point_in(index_, pose, low, model.high() + around,
-                          [&](point_index i, const Eigen::Vector3d& x) {
-                              model.points().nearest_within_into(nearest, x, 1, margin);
-                              if (!nearest.empty()) on.push_back(i);
-                          });
-        std::ranges::sort(on);
-        return on;
+        return detail::cells_on(index_, model, pose);
     }
 
     /// The number of all cells.
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
 
   private:
-    /// Aligns some of these cells, evenly chosen, at most `most`, with the surface of an object.
-    [[nodiscard]] alignment alignment_of(const std::vector<point_index>& all, std::size_t most,
-                                         const surface_model& model, const rigid_motion& start,
-                                         const alignment_options& options) const {
-        const std::size_t n = std::min(all.size(), most);
-        std::vector<point_index> some(n);
-        std::vector<surface_model::oriented> normals(n);
-        for (std::size_t k = 0; k < n; ++k) {
-            some[k] = all[k * all.size() / n];
-            normals[k].normal = surface_[some[k]].normal;
-        }
-        return align_to_surface(subset_view(cells_, some), normals, model.points(), model.normals(),
-                                start.inverse(), options)
-            .inverse();
+    /// An object, aligned from a pose and verified, or none as soon as it is refused.
+    /// @param is_refused  (counts, left): by the counts of all but the last `left` samples
+    [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
+                                                             const rigid_motion& start,
+                                                             const surface_model& model,
+                                                             const effort& much,
+                                                             const auto& is_refused) const {
+        constexpr double margin = 0.10;    // [m]: error of votes; chosen: `reach` of these
+        constexpr double farthest = 0.15;  // [m]: between points at first; chosen: more than that
+        found_object h;
+        h.object = object;
+        h.aligned.pose = start;
+        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
+        std::vector<point_index> inside;
+        for_each_point_in(index_, start, model.low() - around, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
+        const bool is_enough = inside.size() >= fewest;
+        if (!is_enough && !is_refused(h.evidence, 0)) return h;
+        if (!is_enough) return std::nullopt;
+        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, model, start,
+                                       {.noise = noise_,
+                                        .on_ground = true,
+                                        .max_distance = farthest,
+                                        .max_iterations = much.iterations});
+        const verification_options how{.noise = noise_, .most = much.samples};
+        pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
+        const auto normal_of = [&](point_index i) { return surface_[i].normal; };
+        if (!verifier.count_samples(normal_of, is_refused)) return std::nullopt;
+        verifier.count_points(all_points);
+        h.evidence = verifier.counts();
+        h.votes = votes_.at(object, h.aligned.pose);
+        h.probability = probability_of(h);
+        return h;
     }
 
     static constexpr std::size_t fewest = 20;     // cells, as in views
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
-    static constexpr double lowest = 0.05;        // [m]; as in verifications
 
     const voxel_grid::means& cells_;
     spatial_index index_;

@@ -52,6 +52,15 @@ class pose_verifier {
     /// @param normal_of  (i): the normal of point i of the scan; zero if it is missing
     /// @param is_left   (i): whether point i is to be explained
     [[nodiscard]] verification operator()(const auto& normal_of, const auto& is_left) {
+        (void)count_samples(normal_of, [](const verification&, std::size_t) { return false; });
+        count_points(is_left);
+        return counts_;
+    }
+
+    /// Counts the samples.
+    /// @param stops  (counts, left): whether to stop before the last `left` of them
+    /// @return whether it was not stopped
+    [[nodiscard]] bool count_samples(const auto& normal_of, const auto& stops) {
         const std::size_t n = model_.points().size();
         const std::size_t tested = std::min(n, options_.most);
         counts_.samples = tested;
@@ -59,9 +68,9 @@ class pose_verifier {
             const std::size_t i = s * n / tested;
             count_sample(pose_.point_out(model_.points()[i]),
                          pose_.direction_out(model_.normals()[i].normal), normal_of);
+            if (stops(counts_, tested - s - 1)) return false;
         }
-        count_points(is_left);
-        return counts_;
+        return true;
     }
 
     /// Counts the points within the bounds of the object, and near its surface, again.
