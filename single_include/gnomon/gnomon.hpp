@@ -13433,6 +13433,8 @@ struct planar_region {
     region_plane fit;
     bool is_planar = true;  ///< else the plane does not explain its points
 
+    [[nodiscard]] bool is_empty() const { return sums.count == 0; }
+
     /// Whether the plane explains a region of `all` points: most of them are on it, their variance
     /// is at most 2.5 times that of the noise, and it is not seen edge-on.
     [[nodiscard]] bool explains(std::size_t all) const {
@@ -13504,6 +13506,130 @@ class planar_cloud {
 
     const spatial_index& index_;
 };
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
+
+/// @file
+/// Whether one plane explains two regions as well as two planes do: the common plane follows from
+/// the sums of both, and no point is looked at again.
+
+namespace gnomon::detail {
+
+/// The plane of two regions.
+[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
+    plane_sums both = a.sums;
+    both.add(b.sums);
+    return both.fit();
+}
+
+/// The variance of the tilt of a plane about an axis in it [rad^2]; infinite for a strip along the
+/// axis that is no wider than its noise.
+[[nodiscard]] double tilt_variance(const auto& region, const Eigen::Vector3d& axis) {
+    const Eigen::Vector3d& n = region.fit.plane.normal;
+    const Eigen::Vector3d across = cross(n, axis);
+    const double spread = dot(across, product(region.sums.positions.covariance(), across));
+    const double own = spread - region.sums.noise_along(across);
+    if (!(own > 0.0)) return std::numeric_limits<double>::infinity();
+    return region.fit.excess() * region.sums.noise_across(n) * spread / (own * own);
+}
+
+/// Whether two planes are turned by more than an angle, and by more than three standard deviations
+/// more.
+[[nodiscard]] bool are_turned(const auto& a, const auto& b, angle least) {
+    if (!a.fit.is_determined || !b.fit.is_determined) return false;
+    const double cosine = std::abs(dot(a.fit.plane.normal, b.fit.plane.normal));
+    if (cosine >= cos(least)) return false;
+    const Eigen::Vector3d axis = direction_of(cross(a.fit.plane.normal, b.fit.plane.normal));
+    const double beyond = std::acos(cosine) - least.radians();
+    return beyond > most_deviations * std::sqrt(tilt_variance(a, axis) + tilt_variance(b, axis));
+}
+
+/// Planes that meet at more do so at an edge, which is as sharp as the noise lets it be seen.
+inline constexpr angle widest_crease = degrees(30);  // numerical
+
+/// Whether two planes certainly meet at an edge, even of a surface that is rough.
+[[nodiscard]] bool are_at_edge(const auto& a, const auto& b) {
+    // By less, rough surfaces are several planes; chosen on furnished rooms 20,001 to 20,012 and
+    // an office (pcl_office1_kinect).
+    constexpr angle least = degrees(60);
+    return are_turned(a, b, least);
+}
+
+/// Whether two planes meet at a crease: noise explains either of them, though perhaps both by a
+/// common one as well.
+[[nodiscard]] bool are_at_crease(const auto& a, const auto& b) {
+    // By less, walls bend; chosen on streets 20,001 to 20,003 and scans of range finders
+    // (asl_apartment_0, lms400_table_scene_1cm, pcl_room_scan1).
+    constexpr angle least = degrees(3);
+    return std::max(a.fit.chi2, b.fit.chi2) <= region_plane::most_excess && are_turned(a, b, least);
+}
+
+/// The variance of the height of the plane of a region at a place [m^2]: that of its mean, and the
+/// more for its tilt, the farther the place is.
+[[nodiscard]] double height_variance(const auto& region, const Eigen::Vector3d& place) {
+    const Eigen::Vector3d away = difference(place, region.fit.centroid);
+    const double squared = dot(away, away);
+    const double spread = dot(away, product(region.sums.positions.covariance(), away));
+    const double leverage = spread > 0.0 ? squared * squared / spread : 0.0;
+    return region.fit.excess() * region.sums.noise_across(region.fit.plane.normal) *
+           (1.0 + leverage);
+}
+
+/// Whether the plane of a region is nearly parallel to that of a larger whole.
+[[nodiscard]] bool is_nearly_parallel(const auto& fit, const region_plane& whole) {
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    return std::abs(dot(fit.plane.normal, whole.plane.normal)) >= min_cosine(max_angle);
+}
+
+/// Whether there is a step between two planes: noise explains either of them, though perhaps both
+/// by a common one as well; they are nearly parallel; and at the middle of the smaller region they
+/// are farther from each other than 1 cm, as no surface is an exact plane, by more than three
+/// standard deviations more.
+[[nodiscard]] bool are_at_step(const auto& a, const auto& b) {
+    if (b.sums.count < a.sums.count) return are_at_step(b, a);
+    if (!a.fit.is_determined || !b.fit.is_determined) return false;
+    if (std::max(a.fit.chi2, b.fit.chi2) > region_plane::most_excess) return false;
+    if (!is_nearly_parallel(a.fit, b.fit)) return false;
+    const Eigen::Vector3d& middle = a.fit.centroid;
+    const double uncertain = height_variance(a, middle) + height_variance(b, middle);
+    return std::abs(b.fit.plane.signed_distance(middle)) >
+           certain_deviations * flatness + most_deviations * std::sqrt(uncertain);
+}
+
+/// Whether two planes that are next to each other must not become one, though noise may explain
+/// both by one.
+[[nodiscard]] bool are_at_crease_or_step(const auto& a, const auto& b) {
+    return are_at_crease(a, b) || are_at_step(a, b);
+}
+
+/// How much worse one plane explains two regions next to each other than two planes do; at most 1
+/// if they may be merged: they do not meet at an edge, and the variance of either about the common
+/// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
+/// that of the noise.
+[[nodiscard]] double dissimilarity_of_neighbors(const auto& a, const auto& b) {
+    if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();
+    const region_plane both = plane_of_both(a, b);
+    if (!both.is_determined) return std::numeric_limits<double>::infinity();
+    const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
+    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
+}
+
+/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
+/// regressions (Chow 1960); at most 1 if they may be merged. Almost any plane explains a region
+/// that is hardly wider than its noise: its own must be nearly parallel to that of both.
+[[nodiscard]] double dissimilarity_of_apart(const auto& a, const auto& b) {
+    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
+    const region_plane both = plane_of_both(a, b);
+    const auto statistic = [&](const auto& r) {
+        const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
+        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
+    };
+    if (!both.is_determined || !is_nearly_parallel(a.fit, both) || !is_nearly_parallel(b.fit, both))
+        return std::numeric_limits<double>::infinity();
+    return (statistic(a) + statistic(b)) / chi2_of_3;
+}
 
 }  // namespace gnomon::detail
 
@@ -13786,11 +13912,128 @@ void unite_labels(auto& labels, union_find& sets) {
 }  // namespace detail
 }  // namespace gnomon
 
+// -------- gnomon/segmentation/detail/region_edges.hpp --------------------------------------------
+
+/// @file
+/// The side of an edge on which a point is. Near the edge both planes are closer to each other than
+/// the noise, so that the distances of the point from them do not determine it. But noise moves the
+/// point along its ray only, and a ray ends on the first plane that it meets if they form a corner,
+/// and on the second one if they form a ridge.
+
+namespace gnomon::detail {
+
+/// The plane through the line in which the planes of two regions meet that halves the larger of
+/// their angles.
+/// @return the plane, the first region on its negative side; nothing if their centroids are on the
+///         same side
+[[nodiscard]] std::optional<plane> middle_of(const auto& a, const auto& b) {
+    const Eigen::Vector3d& n = a.fit.plane.normal;
+    const Eigen::Vector3d& m = b.fit.plane.normal;
+    const double turn = dot(n, m) < 0.0 ? -1.0 : 1.0;
+    const Eigen::Vector3d between = combined(1.0, n, -turn, m);
+    double scale = 1.0 / length(between);
+    if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
+    const plane middle{scaled(scale, between),
+                       scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
+    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
+        middle.signed_distance(b.fit.centroid) <= 0.0)
+        return std::nullopt;
+    return middle;
+}
+
+/// The edge between two regions.
+class region_edge {
+  public:
+    /// @param ray  from the view point to a point of either region
+    region_edge(const region_pair& pair, const auto& a, const auto& b, const Eigen::Vector3d& ray)
+        : regions(pair), first_(a.fit.plane), second_(b.fit.plane) {
+        const bool is_before_a = is_before(first_, b.fit.centroid, ray);
+        is_seen = is_before_a == is_before(second_, a.fit.centroid, ray);
+        is_corner_ = is_before_a;
+    }
+
+    region_pair regions;
+    bool is_seen;  ///< both sides of it, by the ray: else one of them occludes the other
+
+    /// -1 if a ray ends on the first plane, 1 if on the second one, 0 if it does not meet both.
+    /// @param at   the point, from the origin of the cloud [m]
+    /// @param ray  from its view point to it [m]
+    [[nodiscard]] int side_of(const Eigen::Vector3d& at, const Eigen::Vector3d& ray) const {
+        // Where it meets them: beyond the point, in lengths of the ray.
+        const double to_first = -first_.signed_distance(at) / dot(first_.normal, ray);
+        const double to_second = -second_.signed_distance(at) / dot(second_.normal, ray);
+        if (!(to_first > -1.0) || !(to_second > -1.0) || to_first == to_second) return 0;
+        return (to_second < to_first) == is_corner_ ? 1 : -1;
+    }
+
+  private:
+    /// Whether a place is on that side of a plane from which rays come.
+    [[nodiscard]] static bool is_before(const plane& p, const Eigen::Vector3d& place,
+                                        const Eigen::Vector3d& ray) {
+        return p.signed_distance(place) * dot(p.normal, ray) < 0.0;
+    }
+
+    plane first_, second_;
+    bool is_corner_;
+};
+
+/// The edges between regions next to each other.
+class region_edges {
+  public:
+    region_edges() = default;
+
+    /// @param cloud     a planar_cloud, whose view points are known
+    /// @param labels    numbers of the regions
+    /// @param touching  pairs of regions next to each other, sorted
+    region_edges(const auto& cloud, const auto& regions, const auto& labels,
+                 const scratch<region_pair>& touching) {
+        const label_groups members(labels);
+        for (const region_pair& pair : touching) {
+            const auto &a = regions[pair.first], &b = regions[pair.second];
+            if (!are_at_crease(a, b) || !middle_of(a, b)) continue;
+            const region_edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
+            if (!edge.is_seen) continue;
+            if (are_turned(a, b, widest_crease) || separates(edge, cloud, members))
+                edges_.push_back(edge);
+        }
+    }
+
+    /// Whether a point of one of two regions is, by its ray, of the other.
+    [[nodiscard]] bool is_across(std::int32_t own, std::int32_t other, const Eigen::Vector3d& at,
+                                 const Eigen::Vector3d& ray) const {
+        const region_pair pair =
+            std::minmax(static_cast<point_index>(own), static_cast<point_index>(other));
+        const auto found = std::ranges::lower_bound(edges_, pair, {}, &region_edge::regions);
+        if (found == edges_.end() || found->regions != pair) return false;
+        return found->side_of(at, ray) == (own < other ? 1 : -1);
+    }
+
+  private:
+    /// Whether a shallow edge is where the labels say: at most a tenth of the points of the smaller
+    /// region are on the wrong side. Two planes with a step between them meet elsewhere.
+    [[nodiscard]] static bool separates(const region_edge& edge, const auto& cloud,
+                                        const label_groups& members) {
+        constexpr std::size_t part = 10;  // numerical
+        const auto &first = members[edge.regions.first], &second = members[edge.regions.second];
+        const auto wrong = [&](const auto& points, int side) {
+            return std::ranges::count_if(points, [&](point_index i) {
+                return edge.side_of(cloud.offsets[i], cloud.ray(i)) == side;
+            });
+        };
+        return part * static_cast<std::size_t>(wrong(first, 1) + wrong(second, -1)) <=
+               std::min(first.size(), second.size());
+    }
+
+    scratch<region_edge> edges_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/detail/label_competition.hpp ---------------------------------------
 
 /// @file
 /// The competition of segments for points: each point goes to the plane that explains it best, and
-/// rather to that of most of its neighbors.
+/// rather to that of most of its neighbors, and rather to the plane that its ray ends on.
 
 namespace gnomon::detail {
 
@@ -13799,8 +14042,9 @@ namespace gnomon::detail {
 inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
-/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012). (A
-/// template, so that only its users compile it.)
+/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012), and of
+/// two that meet at an edge, by the side on which the point is. (A template, so that only its users
+/// compile it.)
 template <class Label = std::int32_t>
 class label_competition {
   public:
@@ -13815,30 +14059,34 @@ class label_competition {
     }
 
     /// The best label, of equal ones the smallest; unlabeled if none is possible.
-    /// @param misfit  misfit(label): the square of the deviation of the point, in variances of its
-    ///                region; negative if it is impossible
-    [[nodiscard]] std::int32_t winner(auto&& misfit) const {
+    /// @param misfit     misfit(label): the square of the deviation of the point, in variances of
+    ///                   its region; negative if it is impossible
+    /// @param is_across  is_across(label, other): whether both meet at an edge, and the point is on
+    ///                   the side of the other one; counts as if no neighbor had the label
+    [[nodiscard]] std::int32_t winner(auto&& misfit, auto&& is_across) {
+        constexpr double half =
+            0.5;  // formula: of a squared deviation, the logarithm of its density
         constexpr double potts = 2.0;  // per share of neighbors with another label; chosen
+        std::erase_if(candidates_, [&](candidate& c) {
+            c.squared = misfit(c.label);
+            return c.squared < 0.0;
+        });
         std::pair best(std::numeric_limits<double>::infinity(), unlabeled);
         for (const candidate& c : candidates_) {
-            const double squared = misfit(c.label);
-            if (squared < 0.0) continue;
-            const double cost = 0.5 * squared + potts * (1.0 - c.agreeing / neighbors_);
-            best = std::min(best, std::pair(cost, c.label));
+            const bool is_beyond = std::ranges::any_of(candidates_, [&](const candidate& other) {
+                return other.label != c.label && is_across(c.label, other.label);
+            });
+            const double differing = 1.0 - c.agreeing / neighbors_ + (is_beyond ? 1.0 : 0.0);
+            best = std::min(best, std::pair(half * c.squared + potts * differing, c.label));
         }
         return best.second;
-    }
-
-    /// Calls each(label) for all labels but this one.
-    void for_each_other(std::int32_t label, auto&& each) const {
-        for (const candidate& c : candidates_)
-            if (c.label != label) each(c.label);
     }
 
   private:
     struct candidate {
         Label label;
-        double agreeing;  // neighbors
+        double agreeing;       // neighbors
+        double squared = 0.0;  // misfit
     };
 
     [[nodiscard]] candidate& candidate_of(Label label) {
@@ -13885,46 +14133,60 @@ template <neighborhood_graph G, execution X>
     return is_border;
 }
 
-/// One round. Points that are no border keep their label if they are on the plane.
-/// @param is_border  as borders_of; becomes true where that may have changed
-/// @return the labels afterwards, and the regions that have neighboring points, each pair once
+/// The pairs of regions that have neighboring points, sorted. O(n k) for k neighbors.
+/// @param is_border  of each point that has a neighbor with another label
 template <neighborhood_graph G, execution X>
-[[nodiscard]] auto compete(const planar_cloud& cloud, const G& graph,
-                           const scratch<planar_region>& regions, const auto& labels,
-                           scratch<char>& is_border, const X& run) {
-    struct {
-        scratch<std::int32_t> labels;
-        scratch<region_pair> touching = {};
-    } after{scratch<std::int32_t>(labels.size(), unlabeled)};
+[[nodiscard]] scratch<region_pair> touching_regions(const G& graph, const auto& labels,
+                                                    const scratch<char>& is_border, const X& run) {
+    scratch<region_pair> all;
     mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        scratch<region_pair> some;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (is_border[i] == 0 || labels[i] == unlabeled) continue;
+            const auto own = static_cast<point_index>(labels[i]);
+            for (const point_index j : graph[i]) {
+                if (labels[j] == unlabeled || labels[j] == labels[i]) continue;
+                const auto other = static_cast<point_index>(labels[j]);
+                add_once(region_pair(std::minmax(own, other)), some);
+            }
+        }
+        const guard_of locked(guard);
+        all.insert(all.end(), some.begin(), some.end());
+    });
+    make_unique(all);
+    return all;
+}
+
+/// One round. Points that are no border keep their label if they are on the plane.
+/// @param edges      between the regions, or none
+/// @param is_border  as borders_of; becomes true where that may have changed
+/// @return the labels afterwards
+template <neighborhood_graph G, execution X>
+[[nodiscard]] scratch<std::int32_t> compete(const planar_cloud& cloud, const G& graph,
+                                            const scratch<planar_region>& regions,
+                                            const region_edges& edges, const auto& labels,
+                                            scratch<char>& is_border, const X& run) {
+    scratch<std::int32_t> after(labels.size(), unlabeled);
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;
-        scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
             const auto misfit = [&](std::int32_t label) {
                 return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
             };
-            std::int32_t& next = after.labels[i];
             if (is_border[i] == 0) {
-                if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) next = labels[i];
+                if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) after[i] = labels[i];
                 continue;
             }
             competition.begin(graph[i], labels, labels[i]);
-            next = competition.winner(misfit);
-            if (next == unlabeled) continue;
-            competition.for_each_other(next, [&](std::int32_t other) {
-                const region_pair pair =
-                    std::minmax(static_cast<point_index>(next), static_cast<point_index>(other));
-                add_once(pair, touching);
+            after[i] = competition.winner(misfit, [&](std::int32_t own, std::int32_t other) {
+                return edges.is_across(own, other, cloud.offsets[i], cloud.ray(i));
             });
         }
-        const guard_of locked(guard);
-        after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
-    make_unique(after.touching);
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
-        const auto has_changed = [&](std::size_t j) { return after.labels[j] != labels[j]; };
+        const auto has_changed = [&](std::size_t j) { return after[j] != labels[j]; };
         for (std::size_t i = begin; i < end; ++i)
             if (is_border[i] == 0)
                 is_border[i] = has_changed(i) || std::ranges::any_of(graph[i], has_changed);
@@ -14042,7 +14304,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
     for (int round = 0; round < detail::most_rounds; ++round) {
         const auto regions = detail::regions_of(cloud, result, team);
         const auto labels =
-            detail::compete(cloud, graph, regions, result.labels(), is_border, team).labels;
+            detail::compete(cloud, graph, regions, {}, result.labels(), is_border, team);
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }
@@ -15514,135 +15776,6 @@ class agglomeration {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
-
-/// @file
-/// Whether one plane explains two regions as well as two planes do: the common plane follows from
-/// the sums of both, and no point is looked at again.
-
-namespace gnomon::detail {
-
-/// The plane of two regions.
-[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
-    plane_sums both = a.sums;
-    both.add(b.sums);
-    return both.fit();
-}
-
-/// The variance of the tilt of a plane about an axis in it [rad^2]; infinite for a strip along the
-/// axis that is no wider than its noise.
-[[nodiscard]] double tilt_variance(const auto& region, const Eigen::Vector3d& axis) {
-    const Eigen::Vector3d& n = region.fit.plane.normal;
-    const Eigen::Vector3d across = cross(n, axis);
-    const double spread = dot(across, product(region.sums.positions.covariance(), across));
-    const double own = spread - region.sums.noise_along(across);
-    if (!(own > 0.0)) return std::numeric_limits<double>::infinity();
-    return region.fit.excess() * region.sums.noise_across(n) * spread / (own * own);
-}
-
-/// Whether two planes are turned by more than an angle, and by more than three standard deviations
-/// more.
-[[nodiscard]] bool are_turned(const auto& a, const auto& b, angle least) {
-    if (!a.fit.is_determined || !b.fit.is_determined) return false;
-    const double cosine = std::abs(dot(a.fit.plane.normal, b.fit.plane.normal));
-    if (cosine >= cos(least)) return false;
-    const Eigen::Vector3d axis = direction_of(cross(a.fit.plane.normal, b.fit.plane.normal));
-    const double beyond = std::acos(cosine) - least.radians();
-    return beyond > most_deviations * std::sqrt(tilt_variance(a, axis) + tilt_variance(b, axis));
-}
-
-/// Planes that meet at more do so at an edge, which is as sharp as the noise lets it be seen.
-inline constexpr angle widest_crease = degrees(30);  // numerical
-
-/// Whether two planes certainly meet at an edge, even of a surface that is rough.
-[[nodiscard]] bool are_at_edge(const auto& a, const auto& b) {
-    // By less, rough surfaces are several planes; chosen on furnished rooms 20,001 to 20,012 and
-    // an office (pcl_office1_kinect).
-    constexpr angle least = degrees(60);
-    return are_turned(a, b, least);
-}
-
-/// Whether two planes meet at a crease: noise explains either of them, though perhaps both by a
-/// common one as well.
-[[nodiscard]] bool are_at_crease(const auto& a, const auto& b) {
-    // By less, walls bend; chosen on streets 20,001 to 20,003 and scans of range finders
-    // (asl_apartment_0, lms400_table_scene_1cm, pcl_room_scan1).
-    constexpr angle least = degrees(3);
-    return std::max(a.fit.chi2, b.fit.chi2) <= region_plane::most_excess && are_turned(a, b, least);
-}
-
-/// The variance of the height of the plane of a region at a place [m^2]: that of its mean, and the
-/// more for its tilt, the farther the place is.
-[[nodiscard]] double height_variance(const auto& region, const Eigen::Vector3d& place) {
-    const Eigen::Vector3d away = difference(place, region.fit.centroid);
-    const double squared = dot(away, away);
-    const double spread = dot(away, product(region.sums.positions.covariance(), away));
-    const double leverage = spread > 0.0 ? squared * squared / spread : 0.0;
-    return region.fit.excess() * region.sums.noise_across(region.fit.plane.normal) *
-           (1.0 + leverage);
-}
-
-/// Whether there is a step between two planes: noise explains either of them, though perhaps both
-/// by a common one as well; they do not meet between their centroids; and one is higher than the
-/// other, at both of these, by more than the noise and 1 cm, as no surface is an exact plane, and
-/// by more than three standard deviations more.
-[[nodiscard]] bool are_at_step(const auto& a, const auto& b) {
-    if (!a.fit.is_determined || !b.fit.is_determined) return false;
-    if (std::max(a.fit.chi2, b.fit.chi2) > region_plane::most_excess) return false;
-    const Eigen::Vector3d &n = a.fit.plane.normal, &m = b.fit.plane.normal;
-    const double turn = dot(n, m) < 0.0 ? -1.0 : 1.0;
-    const double at_a = -turn * b.fit.plane.signed_distance(a.fit.centroid);
-    const double at_b = a.fit.plane.signed_distance(b.fit.centroid);
-    if (!(at_a * at_b > 0.0)) return false;
-    const double noise = std::max(a.sums.noise_along(n), b.sums.noise_along(m));
-    const double uncertain =
-        std::max(height_variance(a, b.fit.centroid), height_variance(b, a.fit.centroid));
-    return std::min(std::abs(at_a), std::abs(at_b)) > std::sqrt(noise) +
-                                                          certain_deviations * flatness +
-                                                          most_deviations * std::sqrt(uncertain);
-}
-
-/// Whether two planes that are next to each other must not become one, though noise may explain
-/// both by one.
-[[nodiscard]] bool are_at_crease_or_step(const auto& a, const auto& b) {
-    return are_at_crease(a, b) || are_at_step(a, b);
-}
-
-/// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be merged: they do not meet at an edge, and the variance of either about the common
-/// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
-/// that of the noise.
-[[nodiscard]] double dissimilarity_of_neighbors(const auto& a, const auto& b) {
-    if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();
-    const region_plane both = plane_of_both(a, b);
-    if (!both.is_determined) return std::numeric_limits<double>::infinity();
-    const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
-    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
-}
-
-/// Whether the plane of a region is nearly parallel to that of a larger whole.
-[[nodiscard]] bool is_nearly_parallel(const auto& fit, const region_plane& whole) {
-    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
-    return std::abs(dot(fit.plane.normal, whole.plane.normal)) >= min_cosine(max_angle);
-}
-
-/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
-/// regressions (Chow 1960); at most 1 if they may be merged. Almost any plane explains a region
-/// that is hardly wider than its noise: its own must be nearly parallel to that of both.
-[[nodiscard]] double dissimilarity_of_apart(const auto& a, const auto& b) {
-    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
-    const region_plane both = plane_of_both(a, b);
-    const auto statistic = [&](const auto& r) {
-        const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
-        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
-    };
-    if (!both.is_determined || !is_nearly_parallel(a.fit, both) || !is_nearly_parallel(b.fit, both))
-        return std::numeric_limits<double>::infinity();
-    return (statistic(a) + statistic(b)) / chi2_of_3;
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/segmentation/detail/orthogonal_terms.hpp ----------------------------------------
 
 /// @file
@@ -15787,12 +15920,6 @@ class strips {
         return {along_, first_ + width_ * static_cast<double>(strip)};
     }
 
-    /// As many strips in the place of the two on both sides of a cut.
-    [[nodiscard]] strips finer(std::size_t cut, std::span<const point_index> members) const {
-        return strips(*cloud_, along_, first_ + width_ * (static_cast<double>(cut) - 1.0),
-                      2.0 * width_ / static_cast<double>(count), members);
-    }
-
     /// Whether a surface that is curved along the strips explains their means better than the two
     /// planes of a cut.
     [[nodiscard]] bool is_curved(std::size_t cut) const {
@@ -15859,6 +15986,20 @@ void for_each_axis(const Cloud& cloud, std::span<const point_index> members,
 
 namespace gnomon::detail {
 
+/// Two regions, cut again at a border.
+/// @return the parts on its negative and on its positive side. O(n)
+template <class Cloud>
+[[nodiscard]] std::array<planar_region, 2> parts_at(const plane& border, const Cloud& cloud,
+                                                    std::span<const point_index> first,
+                                                    std::span<const point_index> second) {
+    std::array<planar_region, 2> parts;
+    for (const auto& members : {first, second})
+        for (const point_index i : members)
+            cloud.add(i, parts[border.signed_distance(cloud.offsets[i]) > 0.0 ? 1 : 0].sums);
+    for (planar_region& part : parts) part.fit = part.sums.fit();
+    return parts;
+}
+
 /// Where to cut the union of two regions that meet at a crease.
 /// @param cloud       a planar_cloud
 /// @param members     of all regions, all finite: label_groups
@@ -15874,31 +16015,42 @@ template <class Cloud>
                                               std::size_t second, std::size_t min_points) {
     const auto &a = regions[first], &b = regions[second];
     if (!are_at_crease(a, b) || are_turned(a, b, widest_crease)) return std::nullopt;
+    const auto middle = middle_of(a, b);
+    if (!middle) return std::nullopt;
     const Eigen::Vector3d& n = a.fit.plane.normal;
     const Eigen::Vector3d& m = b.fit.plane.normal;
-    const double cosine = dot(n, m), turn = cosine < 0.0 ? -1.0 : 1.0;
-    // The plane through the crease that halves the angle of both: almost perpendicular to them.
-    const Eigen::Vector3d between = combined(1.0, n, -turn, m);
-    double scale = 1.0 / length(between);
-    if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
-    const plane middle{scaled(scale, between),
-                       scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
-    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
-        middle.signed_distance(b.fit.centroid) <= 0.0)
-        return std::nullopt;
     const double noise = std::sqrt(std::max(a.sums.noise_along(n), b.sums.noise_along(m)));
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double sine = length(cross(n, m));
     // Twice as far as noise hides the distance of the planes, as these are turned.
     const double reach = 2.0 * most_deviations * noise / sine;
     if (!(reach > 0.0)) return std::nullopt;
     constexpr std::size_t pieces = 32;  // numerical: a sixteenth of the reach
-    strips<Cloud, pieces> both(cloud, middle.normal, middle.offset - reach, 2.0 * reach / pieces);
+    strips<Cloud, pieces> both(cloud, middle->normal, middle->offset - reach, 2.0 * reach / pieces);
     for (const std::size_t r : {first, second}) both.add(members[r]);
     double least = std::numeric_limits<double>::infinity();
     const std::size_t cut = both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
     if (cut == 0 || both.is_curved(cut)) return std::nullopt;
-    return both.cut_before(cut);
+    // Free planes of both sides hardly determine where they end, but where they meet: the border is
+    // there if they still do after they are cut there. Else there is a step between them, too.
+    const plane border = both.cut_before(cut);
+    const auto cut_at = [&](const plane& at) {
+        return parts_at(at, cloud, members[first], members[second]);
+    };
+    const auto free = cut_at(border);
+    const auto once = middle_of(free[0], free[1]);
+    if (!once) return border;
+    const auto parts = cut_at(*once);
+    const auto twice = middle_of(parts[0], parts[1]);
+    if (!twice) return border;
+    const auto again = cut_at(*twice);
+    if (!are_at_crease(again[0], again[1]) ||
+        std::min(again[0].sums.summands, again[1].sums.summands) < min_points)
+        return border;
+    const auto [fewer, more] = std::minmax(parts[0].sums.count, again[0].sums.count);
+    constexpr std::size_t part = 10;  // numerical: as in region_edges
+    const bool rests = part * (more - fewer) <= std::min(again[0].sums.count, again[1].sums.count);
+    return rests ? twice : border;
 }
 
 }  // namespace gnomon::detail
@@ -15938,6 +16090,52 @@ template <class Cloud>
         least = squares;
     });
     return best;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/region_labels.hpp -------------------------------------------
+
+/// @file
+/// The labels of a cloud, and the planes of the regions that they are the numbers of.
+
+namespace gnomon::detail {
+
+/// Replaces labels, but `unlabeled`, by number_of(label).
+inline void renumber(scratch<std::int32_t>& labels, auto&& number_of) {
+    for (std::int32_t& label : labels)
+        if (label != unlabeled) label = number_of(label);
+}
+
+/// Sets the sums and planes of the regions of labels. Regions that are too small, or no planes,
+/// become empty, and their points unlabeled. O(n)
+inline void fit_regions(const planar_cloud& cloud, std::size_t min_points,
+                        scratch<std::int32_t>& labels, scratch<planar_region>& regions) {
+    std::int32_t most = unlabeled;
+    for (const std::int32_t label : labels) most = std::max(most, label);
+    regions.assign(static_cast<std::size_t>(most + 1), {});
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        if (labels[i] != unlabeled) cloud.add(i, regions[static_cast<std::size_t>(labels[i])].sums);
+    for (planar_region& r : regions) {
+        r.fit = r.sums.fit();
+        if (r.sums.summands < min_points || !r.fit.is_determined) r = {};
+    }
+    renumber(labels, [&](std::int32_t label) {
+        return regions[static_cast<std::size_t>(label)].is_empty() ? unlabeled : label;
+    });
+}
+
+/// Numbers regions again, without the empty ones. O(n)
+inline void number_regions(scratch<std::int32_t>& labels, scratch<planar_region>& regions) {
+    scratch<std::int32_t> number(regions.size(), unlabeled);
+    std::size_t kept = 0;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        if (regions[r].is_empty()) continue;
+        number[r] = static_cast<std::int32_t>(kept);
+        regions[kept++] = regions[r];
+    }
+    regions.resize(kept);
+    renumber(labels, [&](std::int32_t label) { return number[static_cast<std::size_t>(label)]; });
 }
 
 }  // namespace gnomon::detail
@@ -15993,46 +16191,507 @@ template <neighborhood_graph G, execution X>
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/detail/step_cut.hpp ------------------------------------------------
+// -------- gnomon/segmentation/detail/surface_patch.hpp -------------------------------------------
 
 /// @file
-/// The step within a region: parallel surfaces side by side, as the fronts of two houses, are
-/// within the noise of a common plane if one is hardly higher than the other, and grow into one
-/// region.
+/// A region, or several that belong to one surface, as the means of their parts: few numbers, from
+/// which follows how well a curved surface explains them, and how well their planes do.
 
 namespace gnomon::detail {
 
-/// Where to cut a region in two: across one of its principal axes, where two planes with a step
-/// between them explain the points best. The place is searched for among sixteenths of the extent
-/// of the region, then among sixteenths of the two on both sides of the best place. Only there it
-/// is known whether there is a step, as a few points from its other side turn a plane.
+/// Parts of a region along each of its principal axes; numerical: a piece of a curved surface has
+/// several parts across its curve.
+inline constexpr std::size_t parts_along = 8;
+
+/// A grid of parts over the extent of some places.
+class part_grid {
+  public:
+    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
+
+    void enclose(const Eigen::Vector3d& place) {
+        for (std::size_t a = 0; a < 2; ++a) {
+            low_[a] = std::min(low_[a], dot(axes_[a], place));
+            high_[a] = std::max(high_[a], dot(axes_[a], place));
+        }
+    }
+    [[nodiscard]] std::size_t part_of(const Eigen::Vector3d& place) const {
+        return number(0, place) * parts_along + number(1, place);
+    }
+
+  private:
+    [[nodiscard]] std::size_t number(std::size_t a, const Eigen::Vector3d& place) const {
+        const double extent = high_[a] - low_[a];
+        if (!(extent > 0.0)) return 0;
+        constexpr auto parts = static_cast<double>(parts_along);
+        return static_cast<std::size_t>(
+            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
+    }
+
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    std::array<Eigen::Vector3d, 2> axes_;
+    std::array<double, 2> low_{none, none}, high_{-none, -none};
+};
+
+/// A part of a region.
+struct surface_part {
+    Eigen::Vector3d mean;   ///< of its points, from the origin of the cloud [m]
+    double weight;          ///< 1 / variance of the mean across the plane of the region [1 / m^2]
+    double off_plane;       ///< of the mean [m]
+    double reach;           ///< of the noise of a point across the plane: three deviations [m]
+    std::size_t count = 0;  ///< of its points
+};
+
+/// The parts of one region or several.
+struct surface_patch {
+    scratch<surface_part> parts;
+    plane_sums sums;          ///< of all points
+    double excess = 1.0;      ///< the largest of the regions: region_plane::excess
+    std::size_t regions = 0;  ///< planar ones
+
+    void add(const surface_patch& more) {
+        parts.insert(parts.end(), more.parts.begin(), more.parts.end());
+        sums.add(more.sums);
+        excess = std::max(excess, more.excess);
+        regions += more.regions;
+    }
+};
+
+/// A part by the sums of its points; some.
+/// @param region  that it is of
+[[nodiscard]] inline surface_part part_with(const plane_sums& sums, const planar_region& region) {
+    const plane& own = region.fit.plane;
+    const Eigen::Vector3d mean = sums.positions.mean();
+    const double variance = sums.noise_across(own.normal);  // of the mean
+    const double of_point = static_cast<double>(sums.count) * variance * region.fit.excess();
+    return {mean, 1.0 / variance, own.signed_distance(mean), most_deviations * std::sqrt(of_point),
+            sums.count};
+}
+
+/// The parts of a planar region. O(n)
+/// @param cloud    a planar_cloud
+/// @param members  of the region, all finite
+template <class Cloud>
+[[nodiscard]] surface_patch patch_of(const Cloud& cloud, const planar_region& region,
+                                     std::span<const point_index> members) {
+    const eigen_decomposition principal = symmetric_eigen(region.sums.positions.covariance());
+    part_grid grid(column(principal.vectors, 0), column(principal.vectors, 1));
+    for (const point_index i : members) grid.enclose(cloud.offsets[i]);
+    std::array<plane_sums, parts_along * parts_along> sums{};
+    for (const point_index i : members) cloud.add(i, sums[grid.part_of(cloud.offsets[i])]);
+    surface_patch patch{{}, region.sums, region.fit.excess(), 1};
+    for (const plane_sums& part : sums)
+        if (part.count > 0) patch.parts.push_back(part_with(part, region));
+    return patch;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/common_paraboloid.hpp ---------------------------------------
+
+/// @file
+/// How well a paraboloid explains two patches, compared with their planes.
+
+namespace gnomon::detail {
+
+/// The parts of two patches, and their heights over a paraboloid that fits them.
+class common_paraboloid {
+  public:
+    common_paraboloid(const surface_patch& a, const surface_patch& b)
+        : patches_{&a, &b}, base_(plane_of_both(a, b)) {
+        for (const surface_patch* patch : patches_)
+            for (const surface_part& part : patch->parts) parts_.push_back(&part);
+        for (const surface_part* part : parts_) weights_.push_back(part->weight);
+    }
+
+    /// Whether a plane of both is known, and those of the patches are nearly parallel to it.
+    [[nodiscard]] bool is_determined() const {
+        return base_.is_determined && std::ranges::all_of(patches_, [&](const auto* patch) {
+                   const region_plane own = patch->sums.fit();
+                   return own.is_determined && is_nearly_parallel(own, base_);
+               });
+    }
+
+    /// Whether it explains the parts better than their planes do.
+    [[nodiscard]] bool is_better() const {
+        const scratch<double> heights = heights_over(weights_);
+        double of_planes = 0.0;
+        for (const surface_part* part : parts_)
+            of_planes += part->weight * part->off_plane * part->off_plane;
+        return of_planes > weighted_product(weights_, heights, heights);
+    }
+
+    /// How far the smaller patch is, on average, from the paraboloid of the larger one alone [m];
+    /// of equal ones, the second one counts as smaller.
+    [[nodiscard]] double offset() const {
+        const std::size_t smaller = patches_[1]->sums.count <= patches_[0]->sums.count ? 1 : 0;
+        scratch<double> of_larger = weights_;
+        for (std::size_t p = 0; p < parts_.size(); ++p)
+            if (side_of(p) == smaller) of_larger[p] = 0.0;
+        const scratch<double> heights = heights_over(of_larger);
+        double sum = 0.0, weight = 0.0;
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            if (side_of(p) != smaller) continue;
+            sum += weights_[p] * heights[p];
+            weight += weights_[p];
+        }
+        return std::abs(sum / weight);
+    }
+
+    /// How much worse it explains the patches than their planes do: the sum of squared deviations
+    /// of their means, in variances, by which it is worse for either. Parts that the noise of
+    /// points does not explain are left out, as a plane reaches beyond the border of its surface by
+    /// some points; infinite if these are more than an eighth of a patch, as many as one row of
+    /// parts has (on streets 20,001 to 20,006, a road stayed in two by a twentieth).
+    [[nodiscard]] double worse() const {
+        scratch<double> weights = weights_;
+        constexpr int most_passes = 50;  // numerical: two or three are enough
+        for (int pass = 0; pass < most_passes; ++pass) {
+            const scratch<double> heights = heights_over(weights);
+            std::array<std::size_t, 2> off{};
+            std::array<double, 2> worse{};
+            bool rests = true;
+            for (std::size_t p = 0; p < parts_.size(); ++p) {
+                const surface_part& part = *parts_[p];
+                const std::size_t side = side_of(p);
+                const bool is_on = std::abs(heights[p]) <= part.reach;
+                rests = rests && is_on == (weights[p] > 0.0);
+                weights[p] = is_on ? part.weight : 0.0;
+                if (is_on)
+                    worse[side] +=
+                        part.weight * (heights[p] * heights[p] - part.off_plane * part.off_plane);
+                else
+                    off[side] += part.count;
+            }
+            for (std::size_t side = 0; side < 2; ++side)
+                if (parts_along * off[side] > patches_[side]->sums.count)
+                    return std::numeric_limits<double>::infinity();
+            if (!rests) continue;
+            return std::max(0.0, worse[0]) / patches_[0]->excess +
+                   std::max(0.0, worse[1]) / patches_[1]->excess;
+        }
+        return std::numeric_limits<double>::infinity();
+    }
+
+  private:
+    /// The patch that a part is of: the first or the second.
+    [[nodiscard]] std::size_t side_of(std::size_t part) const {
+        return part < patches_[0]->parts.size() ? 0 : 1;
+    }
+
+    /// Of all parts, over the paraboloid that fits them best by these weights.
+    [[nodiscard]] scratch<double> heights_over(const scratch<double>& weights) const {
+        const Eigen::Vector3d along = orthogonal(base_.plane.normal);
+        const Eigen::Vector3d across = cross(base_.plane.normal, along);
+        std::array<scratch<double>, 6> terms;  // formula: 1, x, y, x^2, x y, y^2
+        scratch<double> heights;
+        for (const surface_part* part : parts_) {
+            const Eigen::Vector3d offset = difference(part->mean, base_.centroid);
+            const double x = dot(along, offset), y = dot(across, offset);
+            const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
+            for (std::size_t t = 0; t < at.size(); ++t) terms[t].push_back(at[t]);
+            heights.push_back(dot(base_.plane.normal, offset));
+        }
+        remove_terms(weights, terms, heights);
+        return heights;
+    }
+
+    std::array<const surface_patch*, 2> patches_;
+    region_plane base_;
+    scratch<const surface_part*> parts_;  // of both
+    scratch<double> weights_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_squares.hpp -------------------------------------------
+
+/// @file
+/// A region as squares of its plane, each with the sums of its points: their means have less noise
+/// than the points, and they are next to each other as the surface is, whatever the noise.
+
+namespace gnomon::detail {
+
+/// Squares over the extent of a region in its plane, with the sums of its points. (A template, so
+/// that only its users compile it.)
+template <class Cloud>
+class plane_squares {
+  public:
+    /// @param members  of the region, all finite; some
+    /// @param each     mean number of them in a square, if they are everywhere
+    plane_squares(const Cloud& cloud, std::span<const point_index> members,
+                  const planar_region& whole, double each)
+        : square_of_(members.size(), 0) {
+        const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+        std::array<double, 2> low{}, extent{};
+        const auto position = [&](std::size_t m, std::size_t axis) {
+            return dot(column(principal.vectors, static_cast<int>(axis)),
+                       cloud.offsets[members[m]]);
+        };
+        for (std::size_t a = 0; a < 2; ++a) {
+            double high = low[a] = position(0, a);
+            for (std::size_t m = 1; m < members.size(); ++m) {
+                low[a] = std::min(low[a], position(m, a));
+                high = std::max(high, position(m, a));
+            }
+            extent[a] = high - low[a];
+        }
+        const double squares = static_cast<double>(members.size()) / each;
+        const double width = std::sqrt(extent[0] * extent[1] / squares);
+        if (!(width > 0.0)) return;
+        for (std::size_t a = 0; a < 2; ++a)
+            along_[a] = 1 + static_cast<std::size_t>(extent[a] / width);
+        sums.resize(along_[0] * along_[1]);
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            for (std::size_t a = 0; a < 2; ++a) {
+                const auto place = static_cast<std::size_t>((position(m, a) - low[a]) / width);
+                square_of_[m] = square_of_[m] * along_[a] + std::min(place, along_[a] - 1);
+            }
+            cloud.add(members[m], sums[square_of_[m]]);
+        }
+    }
+
+    scratch<plane_sums> sums;  ///< of each square; none if the points are on a line
+
+    /// Of a member.
+    [[nodiscard]] std::size_t square_of(std::size_t member) const { return square_of_[member]; }
+
+    /// Whether a square is in one of the four halves of the extent.
+    [[nodiscard]] bool is_in_half(std::size_t square, std::size_t half) const {
+        const bool is_far = half < 2 ? 2 * (square / along_[1]) >= along_[0]
+                                     : 2 * (square % along_[1]) >= along_[1];
+        return is_far == (half % 2 == 0);
+    }
+
+    /// Calls each(square) for those around a square that have points.
+    void for_each_around(std::size_t square, auto&& each) const {
+        const std::size_t row = square / along_[1], column = square % along_[1];
+        for (std::size_t r = row - std::min<std::size_t>(row, 1); r < std::min(row + 2, along_[0]);
+             ++r) {
+            for (std::size_t c = column - std::min<std::size_t>(column, 1);
+                 c < std::min(column + 2, along_[1]); ++c) {
+                const std::size_t other = r * along_[1] + c;
+                if (other != square && sums[other].count > 0) each(other);
+            }
+        }
+    }
+
+  private:
+    std::array<std::size_t, 2> along_{};  // numbers of squares
+    scratch<std::size_t> square_of_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/step_cut.hpp ------------------------------------------------
+
+/// @file
+/// The steps within a region: patches that are a little higher or lower than the rest of it, as the
+/// wheels at the side of a car, or the next front of a row. By a standard deviation or two they
+/// are within the noise of a common plane, and grow into one region; but the means of a dozen
+/// points show them. The plane of the rest is that of the squares that are nearest to it (least
+/// trimmed squares, Rousseeuw 1984), as that of all is tilted by a patch.
+
+namespace gnomon::detail {
+
+/// The search for the steps within one region.
+template <class Cloud>
+class step_search {
+  public:
+    step_search(const Cloud& cloud, std::span<const point_index> members,
+                const planar_region& whole, std::size_t min_points)
+        : squares_(cloud, members, whole, points_of_square),
+          whole_(whole),
+          min_points_(min_points),
+          part_(squares_.sums.size(), rest),
+          height_(part_.size(), 0.0) {}
+
+    /// Finds the patches, the highest first; each is left out before the next one is searched.
+    /// @return their number
+    [[nodiscard]] std::int32_t operator()() {
+        std::int32_t patches = 0;
+        if (squares_.sums.empty()) return patches;
+        while (level_most()) {
+            const scratch<std::size_t> highest = highest_patch();
+            if (highest.empty()) break;
+            ++patches;
+            for (const std::size_t s : highest) part_[s] = patches;
+        }
+        return patches;
+    }
+
+    /// The patch of a member, from 1 on, or `rest`.
+    [[nodiscard]] std::int32_t part_of(std::size_t member) const {
+        return part_[squares_.square_of(member)];
+    }
+
+    static constexpr std::int32_t rest = 0;
+
+  private:
+    /// A step of one standard deviation is four of those of the mean of a square.
+    static constexpr double points_of_square = 16.0;  // numerical
+    /// Share of the points that the plane of most is fit to; formula: of least trimmed squares.
+    static constexpr double core = 0.5;
+    /// Share of the points that the rest must have; numerical: a step may halve a region.
+    static constexpr double least = 0.4;
+
+    [[nodiscard]] bool is_of_rest(std::size_t s) const {
+        return part_[s] == rest && squares_.sums[s].count > 0;
+    }
+
+    /// Sets the heights of the squares above the plane of most of the rest: of those that begin as
+    /// the plane of all of it or of a half of the extent, the one that half of it is nearest to.
+    /// @return whether there is one
+    [[nodiscard]] bool level_most() {
+        constexpr std::size_t halves = 4;  // formula: two of each axis
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t half = 0; half <= halves; ++half) {
+            plane_sums sums;
+            for (std::size_t s = 0; s < part_.size(); ++s)
+                if (is_of_rest(s) && (half == halves || squares_.is_in_half(s, half)))
+                    sums.add(squares_.sums[s]);
+            const region_plane level = settled(sums.fit());
+            if (!level.is_determined || !(level.chi2 < nearest)) continue;
+            nearest = level.chi2;
+            level_ = level;
+        }
+        if (!std::isfinite(nearest)) return false;
+        for (std::size_t s = 0; s < part_.size(); ++s)
+            if (is_of_rest(s)) height_[s] = height_above(level_, s);
+        return true;
+    }
+
+    [[nodiscard]] double height_above(const region_plane& level, std::size_t s) const {
+        return level.plane.signed_distance(squares_.sums[s].positions.mean());
+    }
+
+    /// The plane of the squares of the rest that are nearest to it, and have half of the points.
+    /// @param level  where it begins
+    [[nodiscard]] region_plane settled(region_plane level) const {
+        constexpr int passes = 10;  // numerical: then it hardly moves
+        for (int pass = 0; pass < passes && level.is_determined; ++pass) {
+            scratch<std::pair<double, std::size_t>> nearest;
+            std::size_t points = 0;
+            for (std::size_t s = 0; s < part_.size(); ++s) {
+                if (!is_of_rest(s)) continue;
+                nearest.emplace_back(std::abs(height_above(level, s)), s);
+                points += squares_.sums[s].count;
+            }
+            std::sort(nearest.begin(), nearest.end());
+            plane_sums sums;
+            for (const auto& [height, s] : nearest) {
+                sums.add(squares_.sums[s]);
+                if (static_cast<double>(sums.count) >= core * static_cast<double>(points)) break;
+            }
+            level = sums.fit();
+        }
+        return level;
+    }
+
+    /// Of the patches that are at a step to the rest, the highest or lowest one.
+    [[nodiscard]] scratch<std::size_t> highest_patch() const {
+        scratch<std::size_t> best;
+        double most = 0.0;
+        scratch<char> is_visited(part_.size(), false);
+        for (std::size_t s = 0; s < part_.size(); ++s) {
+            if (is_visited[s] != 0 || !is_of_rest(s) || !is_off(s)) continue;
+            double height = 0.0;
+            scratch<std::size_t> patch = patch_around(s, is_visited, height);
+            if (height > most && is_at_step(patch)) {
+                most = height;
+                best.swap(patch);
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] bool is_off(std::size_t s) const {
+        const double variance = squares_.sums[s].noise_across(level_.plane.normal);
+        return std::abs(height_[s]) > most_deviations * std::sqrt(variance * level_.excess());
+    }
+
+    /// The patch that a square is of: those connected with it that are on the same side of the
+    /// plane and farther from it than half of their mean.
+    /// @param height  becomes that mean, without its sign [m]
+    [[nodiscard]] scratch<std::size_t> patch_around(std::size_t seed, scratch<char>& is_visited,
+                                                    double& height) const {
+        constexpr double half = 0.5;  // formula: between both planes
+        const double sign = height_[seed] < 0.0 ? -1.0 : 1.0;
+        scratch<std::size_t> patch(1, seed);
+        is_visited[seed] = true;
+        double sum = 0.0, count = 0.0;
+        for (std::size_t p = 0; p < patch.size(); ++p) {
+            const auto points = static_cast<double>(squares_.sums[patch[p]].count);
+            sum += points * sign * height_[patch[p]];
+            count += points;
+            height = sum / count;
+            squares_.for_each_around(patch[p], [&](std::size_t s) {
+                if (is_visited[s] != 0 || part_[s] != rest || sign * height_[s] < half * height)
+                    return;
+                is_visited[s] = true;
+                patch.push_back(s);
+            });
+        }
+        return patch;
+    }
+
+    /// Whether a patch is at a step to the rest, without other patches. A bend is not, which a
+    /// paraboloid explains better than two planes.
+    [[nodiscard]] bool is_at_step(const scratch<std::size_t>& patch) const {
+        scratch<char> is_own(part_.size(), false);
+        for (const std::size_t s : patch) is_own[s] = true;
+        planar_region own, others;
+        std::size_t left = 0;  // points of the rest, with other patches
+        for (std::size_t s = 0; s < part_.size(); ++s) {
+            if (!is_of_rest(s)) continue;
+            if (is_own[s] != 0)
+                own.sums.add(squares_.sums[s]);
+            else if (!is_off(s))
+                others.sums.add(squares_.sums[s]);
+            if (is_own[s] == 0) left += squares_.sums[s].count;
+        }
+        if (std::min(own.sums.summands, others.sums.summands) < min_points_ ||
+            static_cast<double>(left) < least * static_cast<double>(whole_.sums.count))
+            return false;
+        own.fit = own.sums.fit();
+        others.fit = others.sums.fit();
+        if (!are_at_step(own, others)) return false;
+        surface_patch of_own{{}, own.sums}, of_others{{}, others.sums};
+        for (std::size_t s = 0; s < part_.size(); ++s) {
+            if (!is_of_rest(s)) continue;
+            if (is_own[s] != 0)
+                of_own.parts.push_back(part_with(squares_.sums[s], own));
+            else if (!is_off(s))
+                of_others.parts.push_back(part_with(squares_.sums[s], others));
+        }
+        return !common_paraboloid(of_own, of_others).is_better();
+    }
+
+    plane_squares<Cloud> squares_;
+    const planar_region& whole_;
+    std::size_t min_points_;
+    scratch<std::int32_t> part_;  // of each square
+    scratch<double> height_;      // above the plane of most of the rest [m]
+    region_plane level_;          // that plane
+};
+
+/// The numbers of the patches of the members of a region, from 1 on, and 0 for the rest of them;
+/// none if there is no step within it. O(n + s log s) for s squares of 16 members, and for each
+/// patch.
 /// @param cloud       a planar_cloud
 /// @param members     of the region, all finite
 /// @param min_points  the least number of each part
-/// @return nothing if one plane explains them as well, or a curved surface better. O(n). (A
-///         template, so that only its users compile it.)
 template <class Cloud>
-[[nodiscard]] std::optional<plane> step_cut(const Cloud& cloud,
-                                            std::span<const point_index> members,
-                                            const planar_region& whole, std::size_t min_points) {
-    if (members.size() < 2 * min_points) return std::nullopt;
-    constexpr std::size_t pieces = 16;  // numerical: of eighths, a step at a third is not found
-    double least = whole.sums.squares(whole.fit);
-    std::optional<plane> best;
-    for_each_axis<pieces>(cloud, members, whole, [&](const auto& wide) {
-        double squares = least;
-        const std::size_t about = wide.best_cut(
-            min_points, [](const auto&, const auto&) { return true; }, squares);
-        if (about == 0 || wide.is_curved(about)) return;
-        const auto narrow = wide.finer(about, members);
-        squares = least;
-        const std::size_t cut = narrow.best_cut(
-            min_points, [](const auto& a, const auto& b) { return are_at_step(a, b); }, squares);
-        if (cut == 0) return;
-        best = narrow.cut_before(cut);
-        least = squares;
-    });
-    return best;
+[[nodiscard]] scratch<std::int32_t> step_cut(const Cloud& cloud,
+                                             std::span<const point_index> members,
+                                             const planar_region& whole, std::size_t min_points) {
+    scratch<std::int32_t> parts;
+    if (members.size() < 2 * min_points || !whole.fit.is_determined ||
+        whole.fit.chi2 > region_plane::most_excess)
+        return parts;
+    step_search<Cloud> search(cloud, members, whole, min_points);
+    if (search() == 0) return parts;
+    for (std::size_t m = 0; m < members.size(); ++m) parts.push_back(search.part_of(m));
+    return parts;
 }
 
 }  // namespace gnomon::detail
@@ -16062,6 +16721,14 @@ class plane_regions {
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
 
+    /// The edges between the regions, if creases were cut.
+    template <execution X>
+    [[nodiscard]] region_edges edges(const X& run) const {
+        if (!keeps_creases_) return {};
+        return {cloud_, regions_, labels_,
+                touching_regions(near_, labels_, borders_of(near_, labels_, run), run)};
+    }
+
     /// Grows new regions in what is unlabeled, and settles them.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
@@ -16074,9 +16741,11 @@ class plane_regions {
     template <execution X>
     void cut_edges(const X& run) {
         cut(run, [this](std::span<const point_index> members, const planar_region& whole) {
-            return edge_cut(
-                cloud_, members, whole, min_points_,
-                [](const auto& a, const auto& b) { return are_at_edge(a, b); }, false);
+            return sides_of(
+                members,
+                edge_cut(
+                    cloud_, members, whole, min_points_,
+                    [](const auto& a, const auto& b) { return are_at_edge(a, b); }, false));
         });
     }
 
@@ -16091,7 +16760,8 @@ class plane_regions {
             const auto at_crease = edge_cut(
                 cloud_, members, whole, min_points_,
                 [](const auto& a, const auto& b) { return are_at_crease(a, b); }, true);
-            return at_crease ? at_crease : step_cut(cloud_, members, whole, min_points_);
+            return at_crease ? sides_of(members, at_crease)
+                             : step_cut(cloud_, members, whole, min_points_);
         };
         for (int round = 0; round < most_rounds; ++round) {
             const bool has_cut = cut(run, cut_of);
@@ -16104,27 +16774,41 @@ class plane_regions {
     void separate(const X& run) {
         if (!separate_parts(graph_, labels_, min_points_, run)) return;
         refit();
-        compact();
+        number_regions(labels_, regions_);
     }
 
   private:
-    /// Cuts regions where two planes explain them better, and settles them.
-    /// @param cut_of  cut_of(members, region): an optional plane; the part on its positive side
-    ///                becomes another region
+    /// On which side of a cut the members of a region are, 0 or 1 each; none if there is no cut.
+    [[nodiscard]] scratch<std::int32_t> sides_of(std::span<const point_index> members,
+                                                 const std::optional<plane>& cut) const {
+        scratch<std::int32_t> sides;
+        if (!cut) return sides;
+        for (const point_index i : members)
+            sides.push_back(cut->signed_distance(cloud_.offsets[i]) > 0.0 ? 1 : 0);
+        return sides;
+    }
+
+    /// Cuts regions where several planes explain them better, and settles them.
+    /// @param cut_of  cut_of(members, region): the numbers of the parts that they are of, or none;
+    ///                all but 0 become regions of their own
     /// @return whether a region was cut
     template <execution X>
     bool cut(const X& run, auto&& cut_of) {
-        const label_groups parts(labels_);
-        scratch<std::optional<plane>> cuts(parts.size());
-        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(parts[r], regions_[r]); });
+        const label_groups members(labels_);
+        scratch<scratch<std::int32_t>> parts(members.size());
+        run(members.size(), [&](std::size_t r) { parts[r] = cut_of(members[r], regions_[r]); });
         auto next = static_cast<std::int32_t>(regions_.size());
-        for (std::size_t r = 0; r < parts.size(); ++r) {
-            if (!cuts[r]) continue;
-            for (const point_index i : parts[r])
-                if (cuts[r]->signed_distance(cloud_.offsets[i]) > 0.0) labels_[i] = next;
-            ++next;
+        const std::int32_t first = next;
+        for (std::size_t r = 0; r < members.size(); ++r) {
+            std::int32_t last = 0;
+            for (std::size_t m = 0; m < parts[r].size(); ++m) {
+                const std::int32_t part = parts[r][m];
+                if (part > 0) labels_[members[r][m]] = next + part - 1;
+                last = std::max(last, part);
+            }
+            next += last;
         }
-        if (next == static_cast<std::int32_t>(regions_.size())) return false;
+        if (next == first) return false;
         settle_again(run);
         return true;
     }
@@ -16134,8 +16818,7 @@ class plane_regions {
     /// @return whether a point has moved
     template <execution X>
     bool move_to_creases(const X& run) {
-        scratch<char> is_border = borders_of(near_, labels_, run);
-        const auto pairs = compete(cloud_, near_, regions_, labels_, is_border, run).touching;
+        const auto pairs = touching_regions(near_, labels_, borders_of(near_, labels_, run), run);
         const label_groups parts(labels_);
         scratch<char> has_changed(regions_.size(), false);
         bool any = false;
@@ -16161,7 +16844,7 @@ class plane_regions {
     void settle_again(const X& run) {
         refit();
         settle(run);
-        compact();
+        number_regions(labels_, regions_);
     }
 
     /// Merges regions next to each other that one plane explains. Then, in at most `most_rounds`
@@ -16170,13 +16853,16 @@ class plane_regions {
     template <execution X>
     void settle(const X& run) {
         scratch<char> is_border = borders_of(near_, labels_, run);
-        merge(compete(cloud_, near_, regions_, labels_, is_border, run).touching);
+        const auto touching = [&] { return touching_regions(near_, labels_, is_border, run); };
+        merge(touching());
         for (int round = 0; round < most_rounds; ++round) {
-            auto after = compete(cloud_, near_, regions_, labels_, is_border, run);
-            const bool rests = labels_ == after.labels;
-            labels_.swap(after.labels);
+            region_edges edges;
+            if (keeps_creases_) edges = region_edges(cloud_, regions_, labels_, touching());
+            auto after = compete(cloud_, near_, regions_, edges, labels_, is_border, run);
+            const bool rests = labels_ == after;
+            labels_.swap(after);
             refit();
-            if (!merge(std::move(after.touching)) && rests) break;
+            if (!merge(touching()) && rests) break;
         }
     }
 
@@ -16185,7 +16871,7 @@ class plane_regions {
     /// @return whether there were any
     bool merge(scratch<region_pair> pairs) {
         std::erase_if(pairs, [this](const region_pair& p) {
-            return is_empty(p.first) || is_empty(p.second);
+            return regions_[p.first].is_empty() || regions_[p.second].is_empty();
         });
         union_find sets = agglomeration(regions_)(
             std::move(pairs),
@@ -16206,44 +16892,7 @@ class plane_regions {
         return any;
     }
 
-    /// Sums and planes of the labels; regions that are too small, or no planes, become empty.
-    void refit() {
-        std::int32_t most = unlabeled;
-        for (const std::int32_t label : labels_) most = std::max(most, label);
-        regions_.assign(static_cast<std::size_t>(most + 1), {});
-        for (std::size_t i = 0; i < labels_.size(); ++i)
-            if (labels_[i] != unlabeled)
-                cloud_.add(i, regions_[static_cast<std::size_t>(labels_[i])].sums);
-        for (planar_region& r : regions_) {
-            r.fit = r.sums.fit();
-            if (r.sums.summands < min_points_ || !r.fit.is_determined) r = {};
-        }
-        relabel([this](std::int32_t label) {
-            return is_empty(static_cast<std::size_t>(label)) ? unlabeled : label;
-        });
-    }
-
-    /// Numbers the regions again, without the empty ones.
-    void compact() {
-        scratch<std::int32_t> number(regions_.size(), unlabeled);
-        std::size_t kept = 0;
-        for (std::size_t r = 0; r < regions_.size(); ++r) {
-            if (is_empty(r)) continue;
-            number[r] = static_cast<std::int32_t>(kept);
-            regions_[kept++] = regions_[r];
-        }
-        regions_.resize(kept);
-        relabel([&](std::int32_t label) { return number[static_cast<std::size_t>(label)]; });
-    }
-
-    [[nodiscard]] bool is_empty(std::size_t region) const {
-        return regions_[region].sums.count == 0;
-    }
-
-    void relabel(auto&& number_of) {
-        for (std::int32_t& label : labels_)
-            if (label != unlabeled) label = number_of(label);
-    }
+    void refit() { fit_regions(cloud_, min_points_, labels_, regions_); }
 
     const planar_cloud& cloud_;
     const G& graph_;
@@ -16273,11 +16922,12 @@ class plane_regions {
 ///
 /// These steps are repeated for the unlabeled points, by twice the angle, as edges blend normals.
 /// Where the noise is independent from point to point, planes that meet at an angle of only 3
-/// degrees are cut apart in the end, and planes with a step between them of more than a standard
-/// deviation and 1 cm. It is taken to be so where view points are known and the rays are not all
-/// within 45 degrees of one axis, as those of a depth camera. At last, parts of a plane that no
-/// neighbors connect become segments of their own, if they are large enough. All lengths follow
-/// from the noise and a flatness of 2 mm, so that no distance need be set.
+/// degrees are cut apart in the end, and planes with a step between them of more than 1 cm; and at
+/// edges a point is rather of the plane that its ray ends on. It is taken to be so where view
+/// points are known and the rays are not all within 45 degrees of one axis, as those of a depth
+/// camera. At last, parts of a plane that no neighbors connect become segments of their own, if
+/// they are large enough. All lengths follow from the noise and a flatness of 2 mm, so that no
+/// distance need be set.
 
 namespace gnomon {
 
@@ -29429,97 +30079,6 @@ class stopwatch {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/detail/surface_patch.hpp -------------------------------------------
-
-/// @file
-/// A region, or several that belong to one surface, as the means of their parts: few numbers, from
-/// which follows how well a curved surface explains them, and how well their planes do.
-
-namespace gnomon::detail {
-
-/// Parts of a region along each of its principal axes; numerical: a piece of a curved surface has
-/// several parts across its curve.
-inline constexpr std::size_t parts_along = 8;
-
-/// A grid of parts over the extent of some places.
-class part_grid {
-  public:
-    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
-
-    void enclose(const Eigen::Vector3d& place) {
-        for (std::size_t a = 0; a < 2; ++a) {
-            low_[a] = std::min(low_[a], dot(axes_[a], place));
-            high_[a] = std::max(high_[a], dot(axes_[a], place));
-        }
-    }
-    [[nodiscard]] std::size_t part_of(const Eigen::Vector3d& place) const {
-        return number(0, place) * parts_along + number(1, place);
-    }
-
-  private:
-    [[nodiscard]] std::size_t number(std::size_t a, const Eigen::Vector3d& place) const {
-        const double extent = high_[a] - low_[a];
-        if (!(extent > 0.0)) return 0;
-        constexpr auto parts = static_cast<double>(parts_along);
-        return static_cast<std::size_t>(
-            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
-    }
-
-    static constexpr double none = std::numeric_limits<double>::infinity();
-    std::array<Eigen::Vector3d, 2> axes_;
-    std::array<double, 2> low_{none, none}, high_{-none, -none};
-};
-
-/// A part of a region.
-struct surface_part {
-    Eigen::Vector3d mean;   ///< of its points, from the origin of the cloud [m]
-    double weight;          ///< 1 / variance of the mean across the plane of the region [1 / m^2]
-    double off_plane;       ///< of the mean [m]
-    double reach;           ///< of the noise of a point across the plane: three deviations [m]
-    std::size_t count = 0;  ///< of its points
-};
-
-/// The parts of one region or several.
-struct surface_patch {
-    scratch<surface_part> parts;
-    plane_sums sums;          ///< of all points
-    double excess = 1.0;      ///< the largest of the regions: region_plane::excess
-    std::size_t regions = 0;  ///< planar ones
-
-    void add(const surface_patch& more) {
-        parts.insert(parts.end(), more.parts.begin(), more.parts.end());
-        sums.add(more.sums);
-        excess = std::max(excess, more.excess);
-        regions += more.regions;
-    }
-};
-
-/// The parts of a planar region. O(n)
-/// @param cloud    a planar_cloud
-/// @param members  of the region, all finite
-template <class Cloud>
-[[nodiscard]] surface_patch patch_of(const Cloud& cloud, const planar_region& region,
-                                     std::span<const point_index> members) {
-    const eigen_decomposition principal = symmetric_eigen(region.sums.positions.covariance());
-    part_grid grid(column(principal.vectors, 0), column(principal.vectors, 1));
-    for (const point_index i : members) grid.enclose(cloud.offsets[i]);
-    std::array<plane_sums, parts_along * parts_along> sums{};
-    for (const point_index i : members) cloud.add(i, sums[grid.part_of(cloud.offsets[i])]);
-    surface_patch patch{{}, region.sums, region.fit.excess(), 1};
-    const plane& own = region.fit.plane;
-    for (const plane_sums& part : sums) {
-        if (part.count == 0) continue;
-        const Eigen::Vector3d mean = part.positions.mean();
-        const double variance = part.noise_across(own.normal);  // of the mean
-        const double of_point = static_cast<double>(part.count) * variance * patch.excess;
-        patch.parts.push_back({mean, 1.0 / variance, own.signed_distance(mean),
-                               most_deviations * std::sqrt(of_point), part.count});
-    }
-    return patch;
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/segmentation/detail/curved_pieces.hpp -------------------------------------------
 
 /// @file
@@ -29529,114 +30088,6 @@ template <class Cloud>
 /// it explains them as well, and one of them is curved by itself.
 
 namespace gnomon::detail {
-
-/// The parts of two patches, and their heights over a paraboloid that fits them.
-class common_paraboloid {
-  public:
-    common_paraboloid(const surface_patch& a, const surface_patch& b)
-        : patches_{&a, &b}, base_(plane_of_both(a, b)) {
-        for (const surface_patch* patch : patches_)
-            for (const surface_part& part : patch->parts) parts_.push_back(&part);
-        for (const surface_part* part : parts_) weights_.push_back(part->weight);
-    }
-
-    /// Whether a plane of both is known, and those of the patches are nearly parallel to it.
-    [[nodiscard]] bool is_determined() const {
-        return base_.is_determined && std::ranges::all_of(patches_, [&](const auto* patch) {
-                   const region_plane own = patch->sums.fit();
-                   return own.is_determined && is_nearly_parallel(own, base_);
-               });
-    }
-
-    /// Whether it explains the parts better than their planes do.
-    [[nodiscard]] bool is_better() const {
-        const scratch<double> heights = heights_over(weights_);
-        double of_planes = 0.0;
-        for (const surface_part* part : parts_)
-            of_planes += part->weight * part->off_plane * part->off_plane;
-        return of_planes > weighted_product(weights_, heights, heights);
-    }
-
-    /// How far the smaller patch is, on average, from the paraboloid of the larger one alone [m];
-    /// of equal ones, the second one counts as smaller.
-    [[nodiscard]] double offset() const {
-        const std::size_t smaller = patches_[1]->sums.count <= patches_[0]->sums.count ? 1 : 0;
-        scratch<double> of_larger = weights_;
-        for (std::size_t p = 0; p < parts_.size(); ++p)
-            if (side_of(p) == smaller) of_larger[p] = 0.0;
-        const scratch<double> heights = heights_over(of_larger);
-        double sum = 0.0, weight = 0.0;
-        for (std::size_t p = 0; p < parts_.size(); ++p) {
-            if (side_of(p) != smaller) continue;
-            sum += weights_[p] * heights[p];
-            weight += weights_[p];
-        }
-        return std::abs(sum / weight);
-    }
-
-    /// How much worse it explains the patches than their planes do: the sum of squared deviations
-    /// of their means, in variances, by which it is worse for either. Parts that the noise of
-    /// points does not explain are left out, as a plane reaches beyond the border of its surface by
-    /// some points; infinite if these are more than an eighth of a patch, as many as one row of
-    /// parts has (on streets 20,001 to 20,006, a road stayed in two by a twentieth).
-    [[nodiscard]] double worse() const {
-        scratch<double> weights = weights_;
-        constexpr int most_passes = 50;  // numerical: two or three are enough
-        for (int pass = 0; pass < most_passes; ++pass) {
-            const scratch<double> heights = heights_over(weights);
-            std::array<std::size_t, 2> off{};
-            std::array<double, 2> worse{};
-            bool rests = true;
-            for (std::size_t p = 0; p < parts_.size(); ++p) {
-                const surface_part& part = *parts_[p];
-                const std::size_t side = side_of(p);
-                const bool is_on = std::abs(heights[p]) <= part.reach;
-                rests = rests && is_on == (weights[p] > 0.0);
-                weights[p] = is_on ? part.weight : 0.0;
-                if (is_on)
-                    worse[side] +=
-                        part.weight * (heights[p] * heights[p] - part.off_plane * part.off_plane);
-                else
-                    off[side] += part.count;
-            }
-            for (std::size_t side = 0; side < 2; ++side)
-                if (parts_along * off[side] > patches_[side]->sums.count)
-                    return std::numeric_limits<double>::infinity();
-            if (!rests) continue;
-            return std::max(0.0, worse[0]) / patches_[0]->excess +
-                   std::max(0.0, worse[1]) / patches_[1]->excess;
-        }
-        return std::numeric_limits<double>::infinity();
-    }
-
-  private:
-    /// The patch that a part is of: the first or the second.
-    [[nodiscard]] std::size_t side_of(std::size_t part) const {
-        return part < patches_[0]->parts.size() ? 0 : 1;
-    }
-
-    /// Of all parts, over the paraboloid that fits them best by these weights.
-    [[nodiscard]] scratch<double> heights_over(const scratch<double>& weights) const {
-        const Eigen::Vector3d along = orthogonal(base_.plane.normal);
-        const Eigen::Vector3d across = cross(base_.plane.normal, along);
-        std::array<scratch<double>, 6> terms;  // formula: 1, x, y, x^2, x y, y^2
-        scratch<double> heights;
-        for (const surface_part* part : parts_) {
-            const Eigen::Vector3d offset = difference(part->mean, base_.centroid);
-            const double x = dot(along, offset), y = dot(across, offset);
-            const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
-            for (std::size_t t = 0; t < at.size(); ++t) terms[t].push_back(at[t]);
-            heights.push_back(dot(base_.plane.normal, offset));
-        }
-        remove_terms(weights, terms, heights);
-        return heights;
-    }
-
-    std::array<const surface_patch*, 2> patches_;
-    region_plane base_;
-    scratch<const surface_part*> parts_;  // of both
-    scratch<double> weights_;
-};
 
 /// Whether two regions next to each other are pieces of one curved surface: their planes are
 /// certainly turned, and not at an edge.
@@ -29670,8 +30121,7 @@ template <neighborhood_graph G, execution X>
 [[nodiscard]] union_find curved_surfaces(const planar_cloud& cloud, const G& graph,
                                          const auto& labels, const scratch<planar_region>& regions,
                                          const X& run) {
-    scratch<char> is_border = borders_of(graph, labels, run);
-    const auto pairs = compete(cloud, graph, regions, labels, is_border, run).touching;
+    const auto pairs = touching_regions(graph, labels, borders_of(graph, labels, run), run);
     const label_groups members(labels);
     scratch<surface_patch> patches;
     for (std::size_t r = 0; r < regions.size(); ++r)
@@ -29993,12 +30443,13 @@ namespace gnomon::detail {
 /// @param cloud     of the cells
 /// @param graph     the neighbors of each cell
 /// @param of_cells  the labels of the cells: numbers of `regions`
+/// @param edges     between these
 template <execution X>
 [[nodiscard]] scratch<std::int32_t> labels_of_points(const spatial_index& points, const auto& noise,
                                                      const cells& cells, const planar_cloud& cloud,
                                                      const auto& graph, const auto& of_cells,
                                                      const scratch<planar_region>& regions,
-                                                     const X& run) {
+                                                     const region_edges& edges, const X& run) {
     scratch<std::int32_t> labels(points.size(), unlabeled);
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;
@@ -30010,9 +30461,13 @@ template <execution X>
             const point_noise of_plane = noise_of_point(points, noise.of_planes, i, is_seen);
             const point_noise exact = noise_of_point(points, noise.curve, i, is_seen);
             const Eigen::Vector3d offset = difference(points[i], cloud.origin);
-            labels[i] = competition.winner([&](std::int32_t label) {
+            const auto misfit = [&](std::int32_t label) {
                 const planar_region& to = regions[static_cast<std::size_t>(label)];
                 return is_certainly_off(offset, exact, to) ? -1.0 : misfit_of(offset, of_plane, to);
+            };
+            labels[i] = competition.winner(misfit, [&](std::int32_t own, std::int32_t other) {
+                const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
+                return edges.is_across(own, other, offset, ray);
             });
         }
     });
@@ -30092,7 +30547,7 @@ class cell_surfaces {
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) {
         const auto& regions = regions_->regions();
         auto of_points = detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_,
-                                                  labels(), regions, run);
+                                                  labels(), regions, regions_->edges(run), run);
         curved_ = curved_surfaces(*cloud_, *near_, labels(), regions, run);
         unite_labels(of_points, curved_);
         return of_points;

@@ -54,7 +54,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
     for (int round = 0; round < detail::most_rounds; ++round) {
         const auto regions = detail::regions_of(cloud, result, team);
         const auto labels =
-            detail::compete(cloud, graph, regions, result.labels(), is_border, team).labels;
+            detail::compete(cloud, graph, regions, {}, result.labels(), is_border, team);
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }

@@ -14,11 +14,12 @@
 ///
 /// These steps are repeated for the unlabeled points, by twice the angle, as edges blend normals.
 /// Where the noise is independent from point to point, planes that meet at an angle of only 3
-/// degrees are cut apart in the end, and planes with a step between them of more than a standard
-/// deviation and 1 cm. It is taken to be so where view points are known and the rays are not all
-/// within 45 degrees of one axis, as those of a depth camera. At last, parts of a plane that no
-/// neighbors connect become segments of their own, if they are large enough. All lengths follow
-/// from the noise and a flatness of 2 mm, so that no distance need be set.
+/// degrees are cut apart in the end, and planes with a step between them of more than 1 cm; and at
+/// edges a point is rather of the plane that its ray ends on. It is taken to be so where view
+/// points are known and the rays are not all within 45 degrees of one axis, as those of a depth
+/// camera. At last, parts of a plane that no neighbors connect become segments of their own, if
+/// they are large enough. All lengths follow from the noise and a flatness of 2 mm, so that no
+/// distance need be set.
 #pragma once
 
 #include <algorithm>

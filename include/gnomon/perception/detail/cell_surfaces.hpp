@@ -36,6 +36,7 @@
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
+#include <gnomon/segmentation/detail/region_edges.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segment_planes.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -48,12 +49,13 @@ namespace gnomon::detail {
 /// @param cloud     of the cells
 /// @param graph     the neighbors of each cell
 /// @param of_cells  the labels of the cells: numbers of `regions`
+/// @param edges     between these
 template <execution X>
 [[nodiscard]] scratch<std::int32_t> labels_of_points(const spatial_index& points, const auto& noise,
                                                      const cells& cells, const planar_cloud& cloud,
                                                      const auto& graph, const auto& of_cells,
                                                      const scratch<planar_region>& regions,
-                                                     const X& run) {
+                                                     const region_edges& edges, const X& run) {
     scratch<std::int32_t> labels(points.size(), unlabeled);
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;
@@ -65,9 +67,13 @@ template <execution X>
             const point_noise of_plane = noise_of_point(points, noise.of_planes, i, is_seen);
             const point_noise exact = noise_of_point(points, noise.curve, i, is_seen);
             const Eigen::Vector3d offset = difference(points[i], cloud.origin);
-            labels[i] = competition.winner([&](std::int32_t label) {
+            const auto misfit = [&](std::int32_t label) {
                 const planar_region& to = regions[static_cast<std::size_t>(label)];
                 return is_certainly_off(offset, exact, to) ? -1.0 : misfit_of(offset, of_plane, to);
+            };
+            labels[i] = competition.winner(misfit, [&](std::int32_t own, std::int32_t other) {
+                const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
+                return edges.is_across(own, other, offset, ray);
             });
         }
     });
@@ -147,7 +153,7 @@ class cell_surfaces {
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) {
         const auto& regions = regions_->regions();
         auto of_points = detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_,
-                                                  labels(), regions, run);
+                                                  labels(), regions, regions_->edges(run), run);
         curved_ = curved_surfaces(*cloud_, *near_, labels(), regions, run);
         unite_labels(of_points, curved_);
         return of_points;

@@ -8,9 +8,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -21,10 +23,25 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_edges.hpp>
 #include <gnomon/segmentation/detail/strips.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 
 namespace gnomon::detail {
+
+/// Two regions, cut again at a border.
+/// @return the parts on its negative and on its positive side. O(n)
+template <class Cloud>
+[[nodiscard]] std::array<planar_region, 2> parts_at(const plane& border, const Cloud& cloud,
+                                                    std::span<const point_index> first,
+                                                    std::span<const point_index> second) {
+    std::array<planar_region, 2> parts;
+    for (const auto& members : {first, second})
+        for (const point_index i : members)
+            cloud.add(i, parts[border.signed_distance(cloud.offsets[i]) > 0.0 ? 1 : 0].sums);
+    for (planar_region& part : parts) part.fit = part.sums.fit();
+    return parts;
+}
 
 /// Where to cut the union of two regions that meet at a crease.
 /// @param cloud       a planar_cloud
@@ -41,31 +58,42 @@ template <class Cloud>
                                               std::size_t second, std::size_t min_points) {
     const auto &a = regions[first], &b = regions[second];
     if (!are_at_crease(a, b) || are_turned(a, b, widest_crease)) return std::nullopt;
+    const auto middle = middle_of(a, b);
+    if (!middle) return std::nullopt;
     const Eigen::Vector3d& n = a.fit.plane.normal;
     const Eigen::Vector3d& m = b.fit.plane.normal;
-    const double cosine = dot(n, m), turn = cosine < 0.0 ? -1.0 : 1.0;
-    // The plane through the crease that halves the angle of both: almost perpendicular to them.
-    const Eigen::Vector3d between = combined(1.0, n, -turn, m);
-    double scale = 1.0 / length(between);
-    if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
-    const plane middle{scaled(scale, between),
-                       scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
-    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
-        middle.signed_distance(b.fit.centroid) <= 0.0)
-        return std::nullopt;
     const double noise = std::sqrt(std::max(a.sums.noise_along(n), b.sums.noise_along(m)));
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double sine = length(cross(n, m));
     // Twice as far as noise hides the distance of the planes, as these are turned.
     const double reach = 2.0 * most_deviations * noise / sine;
     if (!(reach > 0.0)) return std::nullopt;
     constexpr std::size_t pieces = 32;  // numerical: a sixteenth of the reach
-    strips<Cloud, pieces> both(cloud, middle.normal, middle.offset - reach, 2.0 * reach / pieces);
+    strips<Cloud, pieces> both(cloud, middle->normal, middle->offset - reach, 2.0 * reach / pieces);
     for (const std::size_t r : {first, second}) both.add(members[r]);
     double least = std::numeric_limits<double>::infinity();
     const std::size_t cut = both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
     if (cut == 0 || both.is_curved(cut)) return std::nullopt;
-    return both.cut_before(cut);
+    // Free planes of both sides hardly determine where they end, but where they meet: the border is
+    // there if they still do after they are cut there. Else there is a step between them, too.
+    const plane border = both.cut_before(cut);
+    const auto cut_at = [&](const plane& at) {
+        return parts_at(at, cloud, members[first], members[second]);
+    };
+    const auto free = cut_at(border);
+    const auto once = middle_of(free[0], free[1]);
+    if (!once) return border;
+    const auto parts = cut_at(*once);
+    const auto twice = middle_of(parts[0], parts[1]);
+    if (!twice) return border;
+    const auto again = cut_at(*twice);
+    if (!are_at_crease(again[0], again[1]) ||
+        std::min(again[0].sums.summands, again[1].sums.summands) < min_points)
+        return border;
+    const auto [fewer, more] = std::minmax(parts[0].sums.count, again[0].sums.count);
+    constexpr std::size_t part = 10;  // numerical: as in region_edges
+    const bool rests = part * (more - fewer) <= std::min(again[0].sums.count, again[1].sums.count);
+    return rests ? twice : border;
 }
 
 }  // namespace gnomon::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The competition of segments for points: each point goes to the plane that explains it best, and
-/// rather to that of most of its neighbors.
+/// rather to that of most of its neighbors, and rather to the plane that its ray ends on.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +21,7 @@
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_edges.hpp>
 #include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -32,8 +33,9 @@ namespace gnomon::detail {
 inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
-/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012). (A
-/// template, so that only its users compile it.)
+/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012), and of
+/// two that meet at an edge, by the side on which the point is. (A template, so that only its users
+/// compile it.)
 template <class Label = std::int32_t>
 class label_competition {
   public:
@@ -48,30 +50,34 @@ class label_competition {
     }
 
     /// The best label, of equal ones the smallest; unlabeled if none is possible.
-    /// @param misfit  misfit(label): the square of the deviation of the point, in variances of its
-    ///                region; negative if it is impossible
-    [[nodiscard]] std::int32_t winner(auto&& misfit) const {
+    /// @param misfit     misfit(label): the square of the deviation of the point, in variances of
+    ///                   its region; negative if it is impossible
+    /// @param is_across  is_across(label, other): whether both meet at an edge, and the point is on
+    ///                   the side of the other one; counts as if no neighbor had the label
+    [[nodiscard]] std::int32_t winner(auto&& misfit, auto&& is_across) {
+        constexpr double half =
+            0.5;  // formula: of a squared deviation, the logarithm of its density
         constexpr double potts = 2.0;  // per share of neighbors with another label; chosen
+        std::erase_if(candidates_, [&](candidate& c) {
+            c.squared = misfit(c.label);
+            return c.squared < 0.0;
+        });
         std::pair best(std::numeric_limits<double>::infinity(), unlabeled);
         for (const candidate& c : candidates_) {
-            const double squared = misfit(c.label);
-            if (squared < 0.0) continue;
-            const double cost = 0.5 * squared + potts * (1.0 - c.agreeing / neighbors_);
-            best = std::min(best, std::pair(cost, c.label));
+            const bool is_beyond = std::ranges::any_of(candidates_, [&](const candidate& other) {
+                return other.label != c.label && is_across(c.label, other.label);
+            });
+            const double differing = 1.0 - c.agreeing / neighbors_ + (is_beyond ? 1.0 : 0.0);
+            best = std::min(best, std::pair(half * c.squared + potts * differing, c.label));
         }
         return best.second;
-    }
-
-    /// Calls each(label) for all labels but this one.
-    void for_each_other(std::int32_t label, auto&& each) const {
-        for (const candidate& c : candidates_)
-            if (c.label != label) each(c.label);
     }
 
   private:
     struct candidate {
         Label label;
-        double agreeing;  // neighbors
+        double agreeing;       // neighbors
+        double squared = 0.0;  // misfit
     };
 
     [[nodiscard]] candidate& candidate_of(Label label) {
@@ -118,46 +124,60 @@ template <neighborhood_graph G, execution X>
     return is_border;
 }
 
-/// One round. Points that are no border keep their label if they are on the plane.
-/// @param is_border  as borders_of; becomes true where that may have changed
-/// @return the labels afterwards, and the regions that have neighboring points, each pair once
+/// The pairs of regions that have neighboring points, sorted. O(n k) for k neighbors.
+/// @param is_border  of each point that has a neighbor with another label
 template <neighborhood_graph G, execution X>
-[[nodiscard]] auto compete(const planar_cloud& cloud, const G& graph,
-                           const scratch<planar_region>& regions, const auto& labels,
-                           scratch<char>& is_border, const X& run) {
-    struct {
-        scratch<std::int32_t> labels;
-        scratch<region_pair> touching = {};
-    } after{scratch<std::int32_t>(labels.size(), unlabeled)};
+[[nodiscard]] scratch<region_pair> touching_regions(const G& graph, const auto& labels,
+                                                    const scratch<char>& is_border, const X& run) {
+    scratch<region_pair> all;
     mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        scratch<region_pair> some;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (is_border[i] == 0 || labels[i] == unlabeled) continue;
+            const auto own = static_cast<point_index>(labels[i]);
+            for (const point_index j : graph[i]) {
+                if (labels[j] == unlabeled || labels[j] == labels[i]) continue;
+                const auto other = static_cast<point_index>(labels[j]);
+                add_once(region_pair(std::minmax(own, other)), some);
+            }
+        }
+        const guard_of locked(guard);
+        all.insert(all.end(), some.begin(), some.end());
+    });
+    make_unique(all);
+    return all;
+}
+
+/// One round. Points that are no border keep their label if they are on the plane.
+/// @param edges      between the regions, or none
+/// @param is_border  as borders_of; becomes true where that may have changed
+/// @return the labels afterwards
+template <neighborhood_graph G, execution X>
+[[nodiscard]] scratch<std::int32_t> compete(const planar_cloud& cloud, const G& graph,
+                                            const scratch<planar_region>& regions,
+                                            const region_edges& edges, const auto& labels,
+                                            scratch<char>& is_border, const X& run) {
+    scratch<std::int32_t> after(labels.size(), unlabeled);
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;
-        scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
             const auto misfit = [&](std::int32_t label) {
                 return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
             };
-            std::int32_t& next = after.labels[i];
             if (is_border[i] == 0) {
-                if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) next = labels[i];
+                if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) after[i] = labels[i];
                 continue;
             }
             competition.begin(graph[i], labels, labels[i]);
-            next = competition.winner(misfit);
-            if (next == unlabeled) continue;
-            competition.for_each_other(next, [&](std::int32_t other) {
-                const region_pair pair =
-                    std::minmax(static_cast<point_index>(next), static_cast<point_index>(other));
-                add_once(pair, touching);
+            after[i] = competition.winner(misfit, [&](std::int32_t own, std::int32_t other) {
+                return edges.is_across(own, other, cloud.offsets[i], cloud.ray(i));
             });
         }
-        const guard_of locked(guard);
-        after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
-    make_unique(after.touching);
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
-        const auto has_changed = [&](std::size_t j) { return after.labels[j] != labels[j]; };
+        const auto has_changed = [&](std::size_t j) { return after[j] != labels[j]; };
         for (std::size_t i = begin; i < end; ++i)
             if (is_border[i] == 0)
                 is_border[i] = has_changed(i) || std::ranges::any_of(graph[i], has_changed);

@@ -75,24 +75,25 @@ inline constexpr angle widest_crease = degrees(30);  // numerical
            (1.0 + leverage);
 }
 
+/// Whether the plane of a region is nearly parallel to that of a larger whole.
+[[nodiscard]] bool is_nearly_parallel(const auto& fit, const region_plane& whole) {
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    return std::abs(dot(fit.plane.normal, whole.plane.normal)) >= min_cosine(max_angle);
+}
+
 /// Whether there is a step between two planes: noise explains either of them, though perhaps both
-/// by a common one as well; they do not meet between their centroids; and one is higher than the
-/// other, at both of these, by more than the noise and 1 cm, as no surface is an exact plane, and
-/// by more than three standard deviations more.
+/// by a common one as well; they are nearly parallel; and at the middle of the smaller region they
+/// are farther from each other than 1 cm, as no surface is an exact plane, by more than three
+/// standard deviations more.
 [[nodiscard]] bool are_at_step(const auto& a, const auto& b) {
+    if (b.sums.count < a.sums.count) return are_at_step(b, a);
     if (!a.fit.is_determined || !b.fit.is_determined) return false;
     if (std::max(a.fit.chi2, b.fit.chi2) > region_plane::most_excess) return false;
-    const Eigen::Vector3d &n = a.fit.plane.normal, &m = b.fit.plane.normal;
-    const double turn = dot(n, m) < 0.0 ? -1.0 : 1.0;
-    const double at_a = -turn * b.fit.plane.signed_distance(a.fit.centroid);
-    const double at_b = a.fit.plane.signed_distance(b.fit.centroid);
-    if (!(at_a * at_b > 0.0)) return false;
-    const double noise = std::max(a.sums.noise_along(n), b.sums.noise_along(m));
-    const double uncertain =
-        std::max(height_variance(a, b.fit.centroid), height_variance(b, a.fit.centroid));
-    return std::min(std::abs(at_a), std::abs(at_b)) > std::sqrt(noise) +
-                                                          certain_deviations * flatness +
-                                                          most_deviations * std::sqrt(uncertain);
+    if (!is_nearly_parallel(a.fit, b.fit)) return false;
+    const Eigen::Vector3d& middle = a.fit.centroid;
+    const double uncertain = height_variance(a, middle) + height_variance(b, middle);
+    return std::abs(b.fit.plane.signed_distance(middle)) >
+           certain_deviations * flatness + most_deviations * std::sqrt(uncertain);
 }
 
 /// Whether two planes that are next to each other must not become one, though noise may explain
@@ -111,12 +112,6 @@ inline constexpr angle widest_crease = degrees(30);  // numerical
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
     const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
     return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
-}
-
-/// Whether the plane of a region is nearly parallel to that of a larger whole.
-[[nodiscard]] bool is_nearly_parallel(const auto& fit, const region_plane& whole) {
-    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
-    return std::abs(dot(fit.plane.normal, whole.plane.normal)) >= min_cosine(max_angle);
 }
 
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two

@@ -27,6 +27,8 @@
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_edges.hpp>
+#include <gnomon/segmentation/detail/region_labels.hpp>
 #include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/detail/separate_parts.hpp>
 #include <gnomon/segmentation/detail/step_cut.hpp>
@@ -51,6 +53,14 @@ class plane_regions {
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
 
+    /// The edges between the regions, if creases were cut.
+    template <execution X>
+    [[nodiscard]] region_edges edges(const X& run) const {
+        if (!keeps_creases_) return {};
+        return {cloud_, regions_, labels_,
+                touching_regions(near_, labels_, borders_of(near_, labels_, run), run)};
+    }
+
     /// Grows new regions in what is unlabeled, and settles them.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
@@ -63,9 +73,11 @@ class plane_regions {
     template <execution X>
     void cut_edges(const X& run) {
         cut(run, [this](std::span<const point_index> members, const planar_region& whole) {
-            return edge_cut(
-                cloud_, members, whole, min_points_,
-                [](const auto& a, const auto& b) { return are_at_edge(a, b); }, false);
+            return sides_of(
+                members,
+                edge_cut(
+                    cloud_, members, whole, min_points_,
+                    [](const auto& a, const auto& b) { return are_at_edge(a, b); }, false));
         });
     }
 
@@ -80,7 +92,8 @@ class plane_regions {
             const auto at_crease = edge_cut(
                 cloud_, members, whole, min_points_,
                 [](const auto& a, const auto& b) { return are_at_crease(a, b); }, true);
-            return at_crease ? at_crease : step_cut(cloud_, members, whole, min_points_);
+            return at_crease ? sides_of(members, at_crease)
+                             : step_cut(cloud_, members, whole, min_points_);
         };
         for (int round = 0; round < most_rounds; ++round) {
             const bool has_cut = cut(run, cut_of);
@@ -93,27 +106,41 @@ class plane_regions {
     void separate(const X& run) {
         if (!separate_parts(graph_, labels_, min_points_, run)) return;
         refit();
-        compact();
+        number_regions(labels_, regions_);
     }
 
   private:
-    /// Cuts regions where two planes explain them better, and settles them.
-    /// @param cut_of  cut_of(members, region): an optional plane; the part on its positive side
-    ///                becomes another region
+    /// On which side of a cut the members of a region are, 0 or 1 each; none if there is no cut.
+    [[nodiscard]] scratch<std::int32_t> sides_of(std::span<const point_index> members,
+                                                 const std::optional<plane>& cut) const {
+        scratch<std::int32_t> sides;
+        if (!cut) return sides;
+        for (const point_index i : members)
+            sides.push_back(cut->signed_distance(cloud_.offsets[i]) > 0.0 ? 1 : 0);
+        return sides;
+    }
+
+    /// Cuts regions where several planes explain them better, and settles them.
+    /// @param cut_of  cut_of(members, region): the numbers of the parts that they are of, or none;
+    ///                all but 0 become regions of their own
     /// @return whether a region was cut
     template <execution X>
     bool cut(const X& run, auto&& cut_of) {
-        const label_groups parts(labels_);
-        scratch<std::optional<plane>> cuts(parts.size());
-        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(parts[r], regions_[r]); });
+        const label_groups members(labels_);
+        scratch<scratch<std::int32_t>> parts(members.size());
+        run(members.size(), [&](std::size_t r) { parts[r] = cut_of(members[r], regions_[r]); });
         auto next = static_cast<std::int32_t>(regions_.size());
-        for (std::size_t r = 0; r < parts.size(); ++r) {
-            if (!cuts[r]) continue;
-            for (const point_index i : parts[r])
-                if (cuts[r]->signed_distance(cloud_.offsets[i]) > 0.0) labels_[i] = next;
-            ++next;
+        const std::int32_t first = next;
+        for (std::size_t r = 0; r < members.size(); ++r) {
+            std::int32_t last = 0;
+            for (std::size_t m = 0; m < parts[r].size(); ++m) {
+                const std::int32_t part = parts[r][m];
+                if (part > 0) labels_[members[r][m]] = next + part - 1;
+                last = std::max(last, part);
+            }
+            next += last;
         }
-        if (next == static_cast<std::int32_t>(regions_.size())) return false;
+        if (next == first) return false;
         settle_again(run);
         return true;
     }
@@ -123,8 +150,7 @@ class plane_regions {
     /// @return whether a point has moved
     template <execution X>
     bool move_to_creases(const X& run) {
-        scratch<char> is_border = borders_of(near_, labels_, run);
-        const auto pairs = compete(cloud_, near_, regions_, labels_, is_border, run).touching;
+        const auto pairs = touching_regions(near_, labels_, borders_of(near_, labels_, run), run);
         const label_groups parts(labels_);
         scratch<char> has_changed(regions_.size(), false);
         bool any = false;
@@ -150,7 +176,7 @@ class plane_regions {
     void settle_again(const X& run) {
         refit();
         settle(run);
-        compact();
+        number_regions(labels_, regions_);
     }
 
     /// Merges regions next to each other that one plane explains. Then, in at most `most_rounds`
@@ -159,13 +185,16 @@ class plane_regions {
     template <execution X>
     void settle(const X& run) {
         scratch<char> is_border = borders_of(near_, labels_, run);
-        merge(compete(cloud_, near_, regions_, labels_, is_border, run).touching);
+        const auto touching = [&] { return touching_regions(near_, labels_, is_border, run); };
+        merge(touching());
         for (int round = 0; round < most_rounds; ++round) {
-            auto after = compete(cloud_, near_, regions_, labels_, is_border, run);
-            const bool rests = labels_ == after.labels;
-            labels_.swap(after.labels);
+            region_edges edges;
+            if (keeps_creases_) edges = region_edges(cloud_, regions_, labels_, touching());
+            auto after = compete(cloud_, near_, regions_, edges, labels_, is_border, run);
+            const bool rests = labels_ == after;
+            labels_.swap(after);
             refit();
-            if (!merge(std::move(after.touching)) && rests) break;
+            if (!merge(touching()) && rests) break;
         }
     }
 
@@ -174,7 +203,7 @@ class plane_regions {
     /// @return whether there were any
     bool merge(scratch<region_pair> pairs) {
         std::erase_if(pairs, [this](const region_pair& p) {
-            return is_empty(p.first) || is_empty(p.second);
+            return regions_[p.first].is_empty() || regions_[p.second].is_empty();
         });
         union_find sets = agglomeration(regions_)(
             std::move(pairs),
@@ -195,44 +224,7 @@ class plane_regions {
         return any;
     }
 
-    /// Sums and planes of the labels; regions that are too small, or no planes, become empty.
-    void refit() {
-        std::int32_t most = unlabeled;
-        for (const std::int32_t label : labels_) most = std::max(most, label);
-        regions_.assign(static_cast<std::size_t>(most + 1), {});
-        for (std::size_t i = 0; i < labels_.size(); ++i)
-            if (labels_[i] != unlabeled)
-                cloud_.add(i, regions_[static_cast<std::size_t>(labels_[i])].sums);
-        for (planar_region& r : regions_) {
-            r.fit = r.sums.fit();
-            if (r.sums.summands < min_points_ || !r.fit.is_determined) r = {};
-        }
-        relabel([this](std::int32_t label) {
-            return is_empty(static_cast<std::size_t>(label)) ? unlabeled : label;
-        });
-    }
-
-    /// Numbers the regions again, without the empty ones.
-    void compact() {
-        scratch<std::int32_t> number(regions_.size(), unlabeled);
-        std::size_t kept = 0;
-        for (std::size_t r = 0; r < regions_.size(); ++r) {
-            if (is_empty(r)) continue;
-            number[r] = static_cast<std::int32_t>(kept);
-            regions_[kept++] = regions_[r];
-        }
-        regions_.resize(kept);
-        relabel([&](std::int32_t label) { return number[static_cast<std::size_t>(label)]; });
-    }
-
-    [[nodiscard]] bool is_empty(std::size_t region) const {
-        return regions_[region].sums.count == 0;
-    }
-
-    void relabel(auto&& number_of) {
-        for (std::int32_t& label : labels_)
-            if (label != unlabeled) label = number_of(label);
-    }
+    void refit() { fit_regions(cloud_, min_points_, labels_, regions_); }
 
     const planar_cloud& cloud_;
     const G& graph_;

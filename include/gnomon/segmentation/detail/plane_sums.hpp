@@ -138,6 +138,8 @@ struct planar_region {
     region_plane fit;
     bool is_planar = true;  ///< else the plane does not explain its points
 
+    [[nodiscard]] bool is_empty() const { return sums.count == 0; }
+
     /// Whether the plane explains a region of `all` points: most of them are on it, their variance
     /// is at most 2.5 times that of the noise, and it is not seen edge-on.
     [[nodiscard]] bool explains(std::size_t all) const {

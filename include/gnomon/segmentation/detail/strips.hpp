@@ -65,12 +65,6 @@ class strips {
         return {along_, first_ + width_ * static_cast<double>(strip)};
     }
 
-    /// As many strips in the place of the two on both sides of a cut.
-    [[nodiscard]] strips finer(std::size_t cut, std::span<const point_index> members) const {
-        return strips(*cloud_, along_, first_ + width_ * (static_cast<double>(cut) - 1.0),
-                      2.0 * width_ / static_cast<double>(count), members);
-    }
-
     /// Whether a surface that is curved along the strips explains their means better than the two
     /// planes of a cut.
     [[nodiscard]] bool is_curved(std::size_t cut) const {

@@ -79,6 +79,17 @@ struct surface_patch {
     }
 };
 
+/// A part by the sums of its points; some.
+/// @param region  that it is of
+[[nodiscard]] inline surface_part part_with(const plane_sums& sums, const planar_region& region) {
+    const plane& own = region.fit.plane;
+    const Eigen::Vector3d mean = sums.positions.mean();
+    const double variance = sums.noise_across(own.normal);  // of the mean
+    const double of_point = static_cast<double>(sums.count) * variance * region.fit.excess();
+    return {mean, 1.0 / variance, own.signed_distance(mean), most_deviations * std::sqrt(of_point),
+            sums.count};
+}
+
 /// The parts of a planar region. O(n)
 /// @param cloud    a planar_cloud
 /// @param members  of the region, all finite
@@ -91,15 +102,8 @@ template <class Cloud>
     std::array<plane_sums, parts_along * parts_along> sums{};
     for (const point_index i : members) cloud.add(i, sums[grid.part_of(cloud.offsets[i])]);
     surface_patch patch{{}, region.sums, region.fit.excess(), 1};
-    const plane& own = region.fit.plane;
-    for (const plane_sums& part : sums) {
-        if (part.count == 0) continue;
-        const Eigen::Vector3d mean = part.positions.mean();
-        const double variance = part.noise_across(own.normal);  // of the mean
-        const double of_point = static_cast<double>(part.count) * variance * patch.excess;
-        patch.parts.push_back({mean, 1.0 / variance, own.signed_distance(mean),
-                               most_deviations * std::sqrt(of_point), part.count});
-    }
+    for (const plane_sums& part : sums)
+        if (part.count > 0) patch.parts.push_back(part_with(part, region));
     return patch;
 }
 

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The side of an edge on which a point is. Near the edge both planes are closer to each other than
+/// the noise, so that the distances of the point from them do not determine it. But noise moves the
+/// point along its ray only, and a ray ends on the first plane that it meets if they form a corner,
+/// and on the second one if they form a ridge.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/segmentation/detail/plane_comparison.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::detail {
+
+/// The plane through the line in which the planes of two regions meet that halves the larger of
+/// their angles.
+/// @return the plane, the first region on its negative side; nothing if their centroids are on the
+///         same side
+[[nodiscard]] std::optional<plane> middle_of(const auto& a, const auto& b) {
+    const Eigen::Vector3d& n = a.fit.plane.normal;
+    const Eigen::Vector3d& m = b.fit.plane.normal;
+    const double turn = dot(n, m) < 0.0 ? -1.0 : 1.0;
+    const Eigen::Vector3d between = combined(1.0, n, -turn, m);
+    double scale = 1.0 / length(between);
+    if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
+    const plane middle{scaled(scale, between),
+                       scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
+    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
+        middle.signed_distance(b.fit.centroid) <= 0.0)
+        return std::nullopt;
+    return middle;
+}
+
+/// The edge between two regions.
+class region_edge {
+  public:
+    /// @param ray  from the view point to a point of either region
+    region_edge(const region_pair& pair, const auto& a, const auto& b, const Eigen::Vector3d& ray)
+        : regions(pair), first_(a.fit.plane), second_(b.fit.plane) {
+        const bool is_before_a = is_before(first_, b.fit.centroid, ray);
+        is_seen = is_before_a == is_before(second_, a.fit.centroid, ray);
+        is_corner_ = is_before_a;
+    }
+
+    region_pair regions;
+    bool is_seen;  ///< both sides of it, by the ray: else one of them occludes the other
+
+    /// -1 if a ray ends on the first plane, 1 if on the second one, 0 if it does not meet both.
+    /// @param at   the point, from the origin of the cloud [m]
+    /// @param ray  from its view point to it [m]
+    [[nodiscard]] int side_of(const Eigen::Vector3d& at, const Eigen::Vector3d& ray) const {
+        // Where it meets them: beyond the point, in lengths of the ray.
+        const double to_first = -first_.signed_distance(at) / dot(first_.normal, ray);
+        const double to_second = -second_.signed_distance(at) / dot(second_.normal, ray);
+        if (!(to_first > -1.0) || !(to_second > -1.0) || to_first == to_second) return 0;
+        return (to_second < to_first) == is_corner_ ? 1 : -1;
+    }
+
+  private:
+    /// Whether a place is on that side of a plane from which rays come.
+    [[nodiscard]] static bool is_before(const plane& p, const Eigen::Vector3d& place,
+                                        const Eigen::Vector3d& ray) {
+        return p.signed_distance(place) * dot(p.normal, ray) < 0.0;
+    }
+
+    plane first_, second_;
+    bool is_corner_;
+};
+
+/// The edges between regions next to each other.
+class region_edges {
+  public:
+    region_edges() = default;
+
+    /// @param cloud     a planar_cloud, whose view points are known
+    /// @param labels    numbers of the regions
+    /// @param touching  pairs of regions next to each other, sorted
+    region_edges(const auto& cloud, const auto& regions, const auto& labels,
+                 const scratch<region_pair>& touching) {
+        const label_groups members(labels);
+        for (const region_pair& pair : touching) {
+            const auto &a = regions[pair.first], &b = regions[pair.second];
+            if (!are_at_crease(a, b) || !middle_of(a, b)) continue;
+            const region_edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
+            if (!edge.is_seen) continue;
+            if (are_turned(a, b, widest_crease) || separates(edge, cloud, members))
+                edges_.push_back(edge);
+        }
+    }
+
+    /// Whether a point of one of two regions is, by its ray, of the other.
+    [[nodiscard]] bool is_across(std::int32_t own, std::int32_t other, const Eigen::Vector3d& at,
+                                 const Eigen::Vector3d& ray) const {
+        const region_pair pair =
+            std::minmax(static_cast<point_index>(own), static_cast<point_index>(other));
+        const auto found = std::ranges::lower_bound(edges_, pair, {}, &region_edge::regions);
+        if (found == edges_.end() || found->regions != pair) return false;
+        return found->side_of(at, ray) == (own < other ? 1 : -1);
+    }
+
+  private:
+    /// Whether a shallow edge is where the labels say: at most a tenth of the points of the smaller
+    /// region are on the wrong side. Two planes with a step between them meet elsewhere.
+    [[nodiscard]] static bool separates(const region_edge& edge, const auto& cloud,
+                                        const label_groups& members) {
+        constexpr std::size_t part = 10;  // numerical
+        const auto &first = members[edge.regions.first], &second = members[edge.regions.second];
+        const auto wrong = [&](const auto& points, int side) {
+            return std::ranges::count_if(points, [&](point_index i) {
+                return edge.side_of(cloud.offsets[i], cloud.ray(i)) == side;
+            });
+        };
+        return part * static_cast<std::size_t>(wrong(first, 1) + wrong(second, -1)) <=
+               std::min(first.size(), second.size());
+    }
+
+    scratch<region_edge> edges_;
+};
+
+}  // namespace gnomon::detail
