@@ -14133,7 +14133,8 @@ template <neighborhood_graph G, execution X>
     return is_border;
 }
 
-/// The pairs of regions that have neighboring points, sorted. O(n k) for k neighbors.
+/// The pairs of regions that have neighboring points, or one between them that is unlabeled,
+/// sorted. O(n k) for k neighbors.
 /// @param is_border  of each point that has a neighbor with another label
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<region_pair> touching_regions(const G& graph, const auto& labels,
@@ -14143,12 +14144,18 @@ template <neighborhood_graph G, execution X>
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
         scratch<region_pair> some;
         for (std::size_t i = begin; i < end; ++i) {
-            if (is_border[i] == 0 || labels[i] == unlabeled) continue;
-            const auto own = static_cast<point_index>(labels[i]);
+            if (is_border[i] == 0) continue;
+            std::int32_t own = labels[i];
             for (const point_index j : graph[i]) {
-                if (labels[j] == unlabeled || labels[j] == labels[i]) continue;
-                const auto other = static_cast<point_index>(labels[j]);
-                add_once(region_pair(std::minmax(own, other)), some);
+                const std::int32_t other = labels[j];
+                if (other == unlabeled || other == own) continue;
+                if (own == unlabeled) {
+                    own = other;
+                    continue;
+                }
+                add_once(region_pair(std::minmax(static_cast<point_index>(own),
+                                                 static_cast<point_index>(other))),
+                         some);
             }
         }
         const guard_of locked(guard);
@@ -16435,8 +16442,10 @@ class plane_squares {
             }
             extent[a] = high - low[a];
         }
-        const double squares = static_cast<double>(members.size()) / each;
-        const double width = std::sqrt(extent[0] * extent[1] / squares);
+        const auto points = static_cast<double>(members.size());
+        // At most as many along an axis as there are points, however narrow the region is.
+        const double width = std::max(std::sqrt(extent[0] * extent[1] * each / points),
+                                      std::max(extent[0], extent[1]) / points);
         if (!(width > 0.0)) return;
         for (std::size_t a = 0; a < 2; ++a)
             along_[a] = 1 + static_cast<std::size_t>(extent[a] / width);
@@ -16450,7 +16459,7 @@ class plane_squares {
         }
     }
 
-    scratch<plane_sums> sums;  ///< of each square; none if the points are on a line
+    scratch<plane_sums> sums;  ///< of each square; none if all points are one place
 
     /// Of a member.
     [[nodiscard]] std::size_t square_of(std::size_t member) const { return square_of_[member]; }
@@ -16637,19 +16646,18 @@ class step_search {
     /// Whether a patch is at a step to the rest, without other patches. A bend is not, which a
     /// paraboloid explains better than two planes.
     [[nodiscard]] bool is_at_step(const scratch<std::size_t>& patch) const {
+        planar_region own, others;
+        for (const std::size_t s : patch) own.sums.add(squares_.sums[s]);
+        if (own.sums.summands < min_points_) return false;
         scratch<char> is_own(part_.size(), false);
         for (const std::size_t s : patch) is_own[s] = true;
-        planar_region own, others;
         std::size_t left = 0;  // points of the rest, with other patches
         for (std::size_t s = 0; s < part_.size(); ++s) {
-            if (!is_of_rest(s)) continue;
-            if (is_own[s] != 0)
-                own.sums.add(squares_.sums[s]);
-            else if (!is_off(s))
-                others.sums.add(squares_.sums[s]);
-            if (is_own[s] == 0) left += squares_.sums[s].count;
+            if (!is_of_rest(s) || is_own[s] != 0) continue;
+            left += squares_.sums[s].count;
+            if (!is_off(s)) others.sums.add(squares_.sums[s]);
         }
-        if (std::min(own.sums.summands, others.sums.summands) < min_points_ ||
+        if (others.sums.summands < min_points_ ||
             static_cast<double>(left) < least * static_cast<double>(whole_.sums.count))
             return false;
         own.fit = own.sums.fit();

@@ -124,7 +124,8 @@ template <neighborhood_graph G, execution X>
     return is_border;
 }
 
-/// The pairs of regions that have neighboring points, sorted. O(n k) for k neighbors.
+/// The pairs of regions that have neighboring points, or one between them that is unlabeled,
+/// sorted. O(n k) for k neighbors.
 /// @param is_border  of each point that has a neighbor with another label
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<region_pair> touching_regions(const G& graph, const auto& labels,
@@ -134,12 +135,18 @@ template <neighborhood_graph G, execution X>
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
         scratch<region_pair> some;
         for (std::size_t i = begin; i < end; ++i) {
-            if (is_border[i] == 0 || labels[i] == unlabeled) continue;
-            const auto own = static_cast<point_index>(labels[i]);
+            if (is_border[i] == 0) continue;
+            std::int32_t own = labels[i];
             for (const point_index j : graph[i]) {
-                if (labels[j] == unlabeled || labels[j] == labels[i]) continue;
-                const auto other = static_cast<point_index>(labels[j]);
-                add_once(region_pair(std::minmax(own, other)), some);
+                const std::int32_t other = labels[j];
+                if (other == unlabeled || other == own) continue;
+                if (own == unlabeled) {
+                    own = other;
+                    continue;
+                }
+                add_once(region_pair(std::minmax(static_cast<point_index>(own),
+                                                 static_cast<point_index>(other))),
+                         some);
             }
         }
         const guard_of locked(guard);

@@ -42,8 +42,10 @@ class plane_squares {
             }
             extent[a] = high - low[a];
         }
-        const double squares = static_cast<double>(members.size()) / each;
-        const double width = std::sqrt(extent[0] * extent[1] / squares);
+        const auto points = static_cast<double>(members.size());
+        // At most as many along an axis as there are points, however narrow the region is.
+        const double width = std::max(std::sqrt(extent[0] * extent[1] * each / points),
+                                      std::max(extent[0], extent[1]) / points);
         if (!(width > 0.0)) return;
         for (std::size_t a = 0; a < 2; ++a)
             along_[a] = 1 + static_cast<std::size_t>(extent[a] / width);
@@ -57,7 +59,7 @@ class plane_squares {
         }
     }
 
-    scratch<plane_sums> sums;  ///< of each square; none if the points are on a line
+    scratch<plane_sums> sums;  ///< of each square; none if all points are one place
 
     /// Of a member.
     [[nodiscard]] std::size_t square_of(std::size_t member) const { return square_of_[member]; }

@@ -169,19 +169,18 @@ class step_search {
     /// Whether a patch is at a step to the rest, without other patches. A bend is not, which a
     /// paraboloid explains better than two planes.
     [[nodiscard]] bool is_at_step(const scratch<std::size_t>& patch) const {
+        planar_region own, others;
+        for (const std::size_t s : patch) own.sums.add(squares_.sums[s]);
+        if (own.sums.summands < min_points_) return false;
         scratch<char> is_own(part_.size(), false);
         for (const std::size_t s : patch) is_own[s] = true;
-        planar_region own, others;
         std::size_t left = 0;  // points of the rest, with other patches
         for (std::size_t s = 0; s < part_.size(); ++s) {
-            if (!is_of_rest(s)) continue;
-            if (is_own[s] != 0)
-                own.sums.add(squares_.sums[s]);
-            else if (!is_off(s))
-                others.sums.add(squares_.sums[s]);
-            if (is_own[s] == 0) left += squares_.sums[s].count;
+            if (!is_of_rest(s) || is_own[s] != 0) continue;
+            left += squares_.sums[s].count;
+            if (!is_off(s)) others.sums.add(squares_.sums[s]);
         }
-        if (std::min(own.sums.summands, others.sums.summands) < min_points_ ||
+        if (others.sums.summands < min_points_ ||
             static_cast<double>(left) < least * static_cast<double>(whole_.sums.count))
             return false;
         own.fit = own.sums.fit();
