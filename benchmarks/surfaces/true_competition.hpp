@@ -52,7 +52,8 @@ class true_competition {
     /// The labels of all points of the scan.
     [[nodiscard]] gnomon::segments segments(std::size_t points) const {
         const auto of_kept = gnomon::detail::labels_of_points(
-            points_, noise_, cells_, cloud_, graph_, labels_, regions_, {}, gnomon::sequential{});
+            points_, noise_, cells_, cloud_, graph_, labels_, regions_,
+            gnomon::detail::region_edges<>(), gnomon::sequential{});
         std::vector<std::int32_t> labels(points, gnomon::unlabeled);
         for (std::size_t i = 0; i < kept_.size(); ++i) labels[kept_[i]] = of_kept[i];
         return gnomon::segments(labels);
@@ -86,7 +87,8 @@ class true_competition {
         auto is_border = gnomon::detail::borders_of(graph_, labels_, run);
         for (int round = 0; round < gnomon::detail::most_rounds; ++round) {
             auto after =
-                gnomon::detail::compete(cloud_, graph_, regions_, {}, labels_, is_border, run);
+                gnomon::detail::compete(cloud_, graph_, regions_, gnomon::detail::region_edges<>(),
+                                        labels_, is_border, run);
             labels_.assign(after.begin(), after.end());
             fit();
         }

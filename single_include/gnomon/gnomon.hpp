@@ -13941,7 +13941,8 @@ namespace gnomon::detail {
     return middle;
 }
 
-/// The edge between two regions.
+/// The edge between two regions. (A template, so that only its users compile it.)
+template <class Plane = plane>
 class region_edge {
   public:
     /// @param ray  from the view point to a point of either region
@@ -13968,16 +13969,17 @@ class region_edge {
 
   private:
     /// Whether a place is on that side of a plane from which rays come.
-    [[nodiscard]] static bool is_before(const plane& p, const Eigen::Vector3d& place,
+    [[nodiscard]] static bool is_before(const Plane& p, const Eigen::Vector3d& place,
                                         const Eigen::Vector3d& ray) {
         return p.signed_distance(place) * dot(p.normal, ray) < 0.0;
     }
 
-    plane first_, second_;
+    Plane first_, second_;
     bool is_corner_;
 };
 
-/// The edges between regions next to each other.
+/// The edges between regions next to each other. (A template, so that only its users compile it.)
+template <class Edge = region_edge<>>
 class region_edges {
   public:
     region_edges() = default;
@@ -13991,19 +13993,21 @@ class region_edges {
         for (const region_pair& pair : touching) {
             const auto &a = regions[pair.first], &b = regions[pair.second];
             if (!are_at_crease(a, b) || !middle_of(a, b)) continue;
-            const region_edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
+            const Edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
             if (!edge.is_seen) continue;
             if (are_turned(a, b, widest_crease) || separates(edge, cloud, members))
                 edges_.push_back(edge);
         }
     }
 
-    /// Whether a point of one of two regions is, by its ray, of the other.
-    [[nodiscard]] bool is_across(std::int32_t own, std::int32_t other, const Eigen::Vector3d& at,
+    /// Whether a point of one of two regions is, by its ray, of the other. (A template, so that
+    /// only its users compile it.)
+    template <class Label>
+    [[nodiscard]] bool is_across(Label own, Label other, const Eigen::Vector3d& at,
                                  const Eigen::Vector3d& ray) const {
         const region_pair pair =
             std::minmax(static_cast<point_index>(own), static_cast<point_index>(other));
-        const auto found = std::ranges::lower_bound(edges_, pair, {}, &region_edge::regions);
+        const auto found = std::ranges::lower_bound(edges_, pair, {}, &Edge::regions);
         if (found == edges_.end() || found->regions != pair) return false;
         return found->side_of(at, ray) == (own < other ? 1 : -1);
     }
@@ -14011,7 +14015,7 @@ class region_edges {
   private:
     /// Whether a shallow edge is where the labels say: at most a tenth of the points of the smaller
     /// region are on the wrong side. Two planes with a step between them meet elsewhere.
-    [[nodiscard]] static bool separates(const region_edge& edge, const auto& cloud,
+    [[nodiscard]] static bool separates(const Edge& edge, const auto& cloud,
                                         const label_groups& members) {
         constexpr std::size_t part = 10;  // numerical
         const auto &first = members[edge.regions.first], &second = members[edge.regions.second];
@@ -14024,7 +14028,7 @@ class region_edges {
                std::min(first.size(), second.size());
     }
 
-    scratch<region_edge> edges_;
+    scratch<Edge> edges_;
 };
 
 }  // namespace gnomon::detail
@@ -14172,7 +14176,7 @@ template <neighborhood_graph G, execution X>
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<std::int32_t> compete(const planar_cloud& cloud, const G& graph,
                                             const scratch<planar_region>& regions,
-                                            const region_edges& edges, const auto& labels,
+                                            const auto& edges, const auto& labels,
                                             scratch<char>& is_border, const X& run) {
     scratch<std::int32_t> after(labels.size(), unlabeled);
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
@@ -14310,8 +14314,8 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
     auto is_border = detail::borders_of(graph, parts.labels(), team);
     for (int round = 0; round < detail::most_rounds; ++round) {
         const auto regions = detail::regions_of(cloud, result, team);
-        const auto labels =
-            detail::compete(cloud, graph, regions, {}, result.labels(), is_border, team);
+        const auto labels = detail::compete(cloud, graph, regions, detail::region_edges<>(),
+                                            result.labels(), is_border, team);
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }
@@ -16109,15 +16113,14 @@ template <class Cloud>
 namespace gnomon::detail {
 
 /// Replaces labels, but `unlabeled`, by number_of(label).
-inline void renumber(scratch<std::int32_t>& labels, auto&& number_of) {
+void renumber(auto& labels, auto&& number_of) {
     for (std::int32_t& label : labels)
         if (label != unlabeled) label = number_of(label);
 }
 
 /// Sets the sums and planes of the regions of labels. Regions that are too small, or no planes,
 /// become empty, and their points unlabeled. O(n)
-inline void fit_regions(const planar_cloud& cloud, std::size_t min_points,
-                        scratch<std::int32_t>& labels, scratch<planar_region>& regions) {
+void fit_regions(const auto& cloud, std::size_t min_points, auto& labels, auto& regions) {
     std::int32_t most = unlabeled;
     for (const std::int32_t label : labels) most = std::max(most, label);
     regions.assign(static_cast<std::size_t>(most + 1), {});
@@ -16133,7 +16136,7 @@ inline void fit_regions(const planar_cloud& cloud, std::size_t min_points,
 }
 
 /// Numbers regions again, without the empty ones. O(n)
-inline void number_regions(scratch<std::int32_t>& labels, scratch<planar_region>& regions) {
+void number_regions(auto& labels, auto& regions) {
     scratch<std::int32_t> number(regions.size(), unlabeled);
     std::size_t kept = 0;
     for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -16265,7 +16268,7 @@ struct surface_patch {
 
 /// A part by the sums of its points; some.
 /// @param region  that it is of
-[[nodiscard]] inline surface_part part_with(const plane_sums& sums, const planar_region& region) {
+[[nodiscard]] surface_part part_with(const auto& sums, const auto& region) {
     const plane& own = region.fit.plane;
     const Eigen::Vector3d mean = sums.positions.mean();
     const double variance = sums.noise_across(own.normal);  // of the mean
@@ -16300,12 +16303,14 @@ template <class Cloud>
 
 namespace gnomon::detail {
 
-/// The parts of two patches, and their heights over a paraboloid that fits them.
+/// The parts of two patches, and their heights over a paraboloid that fits them. (A template, so
+/// that only its users compile it.)
+template <class Patch = surface_patch>
 class common_paraboloid {
   public:
-    common_paraboloid(const surface_patch& a, const surface_patch& b)
+    common_paraboloid(const Patch& a, const Patch& b)
         : patches_{&a, &b}, base_(plane_of_both(a, b)) {
-        for (const surface_patch* patch : patches_)
+        for (const Patch* patch : patches_)
             for (const surface_part& part : patch->parts) parts_.push_back(&part);
         for (const surface_part* part : parts_) weights_.push_back(part->weight);
     }
@@ -16402,7 +16407,7 @@ class common_paraboloid {
         return heights;
     }
 
-    std::array<const surface_patch*, 2> patches_;
+    std::array<const Patch*, 2> patches_;
     region_plane base_;
     scratch<const surface_part*> parts_;  // of both
     scratch<double> weights_;
@@ -16731,7 +16736,7 @@ class plane_regions {
 
     /// The edges between the regions, if creases were cut.
     template <execution X>
-    [[nodiscard]] region_edges edges(const X& run) const {
+    [[nodiscard]] region_edges<> edges(const X& run) const {
         if (!keeps_creases_) return {};
         return {cloud_, regions_, labels_,
                 touching_regions(near_, labels_, borders_of(near_, labels_, run), run)};
@@ -16864,8 +16869,8 @@ class plane_regions {
         const auto touching = [&] { return touching_regions(near_, labels_, is_border, run); };
         merge(touching());
         for (int round = 0; round < most_rounds; ++round) {
-            region_edges edges;
-            if (keeps_creases_) edges = region_edges(cloud_, regions_, labels_, touching());
+            region_edges<> edges;
+            if (keeps_creases_) edges = region_edges<>(cloud_, regions_, labels_, touching());
             auto after = compete(cloud_, near_, regions_, edges, labels_, is_border, run);
             const bool rests = labels_ == after;
             labels_.swap(after);
@@ -30457,7 +30462,7 @@ template <execution X>
                                                      const cells& cells, const planar_cloud& cloud,
                                                      const auto& graph, const auto& of_cells,
                                                      const scratch<planar_region>& regions,
-                                                     const region_edges& edges, const X& run) {
+                                                     const auto& edges, const X& run) {
     scratch<std::int32_t> labels(points.size(), unlabeled);
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;

@@ -64,7 +64,7 @@ TEST(region_edges, tell_the_side_whatever_the_noise_along_the_ray) {
              {Eigen::Vector3d(0.0, 0.0, 3.0), Eigen::Vector3d(1.5, 2.0, 4.0)}) {
             two_faces scene(gnomon::degrees(degrees), from, 7);
             const auto cloud = scene.cloud();
-            const gnomon::detail::region_edges edges(cloud, scene.regions, scene.truth, {{0, 1}});
+            const gnomon::detail::region_edges<> edges(cloud, scene.regions, scene.truth, {{0, 1}});
             std::size_t by_ray = 0, by_distance = 0;
             for (std::size_t i = 0; i < scene.truth.size(); ++i) {
                 const std::int32_t own = scene.truth[i];
@@ -91,7 +91,7 @@ TEST(region_edges, of_planes_that_meet_elsewhere_separate_nothing) {
     two_faces scene(gnomon::degrees(6.0), {0.0, 0.0, 3.0}, 3);
     const auto cloud = scene.cloud();
     scene.regions[1].fit.plane.offset += 0.06;
-    const gnomon::detail::region_edges edges(cloud, scene.regions, scene.truth, {{0, 1}});
+    const gnomon::detail::region_edges<> edges(cloud, scene.regions, scene.truth, {{0, 1}});
     for (std::size_t i = 0; i < scene.truth.size(); ++i) {
         EXPECT_FALSE(edges.is_across(0, 1, cloud.offsets[i], cloud.ray(i)));
         EXPECT_FALSE(edges.is_across(1, 0, cloud.offsets[i], cloud.ray(i)));
@@ -102,7 +102,7 @@ TEST(region_edges, know_no_side_without_a_ray) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     two_faces scene(gnomon::degrees(80.0), {0.0, 0.0, 3.0}, 3);
     const auto cloud = scene.cloud();
-    const gnomon::detail::region_edges edges(cloud, scene.regions, scene.truth, {{0, 1}});
+    const gnomon::detail::region_edges<> edges(cloud, scene.regions, scene.truth, {{0, 1}});
     const Eigen::Vector3d at(0.1, 0.1, 0.0);
     for (const Eigen::Vector3d& ray :
          {Eigen::Vector3d(nan, nan, nan), Eigen::Vector3d(0.0, 0.0, 0.0),

@@ -53,8 +53,8 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
     auto is_border = detail::borders_of(graph, parts.labels(), team);
     for (int round = 0; round < detail::most_rounds; ++round) {
         const auto regions = detail::regions_of(cloud, result, team);
-        const auto labels =
-            detail::compete(cloud, graph, regions, {}, result.labels(), is_border, team);
+        const auto labels = detail::compete(cloud, graph, regions, detail::region_edges<>(),
+                                            result.labels(), is_border, team);
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }

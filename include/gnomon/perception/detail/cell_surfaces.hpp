@@ -55,7 +55,7 @@ template <execution X>
                                                      const cells& cells, const planar_cloud& cloud,
                                                      const auto& graph, const auto& of_cells,
                                                      const scratch<planar_region>& regions,
-                                                     const region_edges& edges, const X& run) {
+                                                     const auto& edges, const X& run) {
     scratch<std::int32_t> labels(points.size(), unlabeled);
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;

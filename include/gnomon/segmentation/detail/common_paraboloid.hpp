@@ -20,12 +20,14 @@
 
 namespace gnomon::detail {
 
-/// The parts of two patches, and their heights over a paraboloid that fits them.
+/// The parts of two patches, and their heights over a paraboloid that fits them. (A template, so
+/// that only its users compile it.)
+template <class Patch = surface_patch>
 class common_paraboloid {
   public:
-    common_paraboloid(const surface_patch& a, const surface_patch& b)
+    common_paraboloid(const Patch& a, const Patch& b)
         : patches_{&a, &b}, base_(plane_of_both(a, b)) {
-        for (const surface_patch* patch : patches_)
+        for (const Patch* patch : patches_)
             for (const surface_part& part : patch->parts) parts_.push_back(&part);
         for (const surface_part* part : parts_) weights_.push_back(part->weight);
     }
@@ -122,7 +124,7 @@ class common_paraboloid {
         return heights;
     }
 
-    std::array<const surface_patch*, 2> patches_;
+    std::array<const Patch*, 2> patches_;
     region_plane base_;
     scratch<const surface_part*> parts_;  // of both
     scratch<double> weights_;

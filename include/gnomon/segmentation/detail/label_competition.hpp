@@ -163,7 +163,7 @@ template <neighborhood_graph G, execution X>
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<std::int32_t> compete(const planar_cloud& cloud, const G& graph,
                                             const scratch<planar_region>& regions,
-                                            const region_edges& edges, const auto& labels,
+                                            const auto& edges, const auto& labels,
                                             scratch<char>& is_border, const X& run) {
     scratch<std::int32_t> after(labels.size(), unlabeled);
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {

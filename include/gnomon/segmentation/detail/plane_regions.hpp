@@ -55,7 +55,7 @@ class plane_regions {
 
     /// The edges between the regions, if creases were cut.
     template <execution X>
-    [[nodiscard]] region_edges edges(const X& run) const {
+    [[nodiscard]] region_edges<> edges(const X& run) const {
         if (!keeps_creases_) return {};
         return {cloud_, regions_, labels_,
                 touching_regions(near_, labels_, borders_of(near_, labels_, run), run)};
@@ -188,8 +188,8 @@ class plane_regions {
         const auto touching = [&] { return touching_regions(near_, labels_, is_border, run); };
         merge(touching());
         for (int round = 0; round < most_rounds; ++round) {
-            region_edges edges;
-            if (keeps_creases_) edges = region_edges(cloud_, regions_, labels_, touching());
+            region_edges<> edges;
+            if (keeps_creases_) edges = region_edges<>(cloud_, regions_, labels_, touching());
             auto after = compete(cloud_, near_, regions_, edges, labels_, is_border, run);
             const bool rests = labels_ == after;
             labels_.swap(after);

@@ -42,7 +42,8 @@ namespace gnomon::detail {
     return middle;
 }
 
-/// The edge between two regions.
+/// The edge between two regions. (A template, so that only its users compile it.)
+template <class Plane = plane>
 class region_edge {
   public:
     /// @param ray  from the view point to a point of either region
@@ -69,16 +70,17 @@ class region_edge {
 
   private:
     /// Whether a place is on that side of a plane from which rays come.
-    [[nodiscard]] static bool is_before(const plane& p, const Eigen::Vector3d& place,
+    [[nodiscard]] static bool is_before(const Plane& p, const Eigen::Vector3d& place,
                                         const Eigen::Vector3d& ray) {
         return p.signed_distance(place) * dot(p.normal, ray) < 0.0;
     }
 
-    plane first_, second_;
+    Plane first_, second_;
     bool is_corner_;
 };
 
-/// The edges between regions next to each other.
+/// The edges between regions next to each other. (A template, so that only its users compile it.)
+template <class Edge = region_edge<>>
 class region_edges {
   public:
     region_edges() = default;
@@ -92,19 +94,21 @@ class region_edges {
         for (const region_pair& pair : touching) {
             const auto &a = regions[pair.first], &b = regions[pair.second];
             if (!are_at_crease(a, b) || !middle_of(a, b)) continue;
-            const region_edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
+            const Edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
             if (!edge.is_seen) continue;
             if (are_turned(a, b, widest_crease) || separates(edge, cloud, members))
                 edges_.push_back(edge);
         }
     }
 
-    /// Whether a point of one of two regions is, by its ray, of the other.
-    [[nodiscard]] bool is_across(std::int32_t own, std::int32_t other, const Eigen::Vector3d& at,
+    /// Whether a point of one of two regions is, by its ray, of the other. (A template, so that
+    /// only its users compile it.)
+    template <class Label>
+    [[nodiscard]] bool is_across(Label own, Label other, const Eigen::Vector3d& at,
                                  const Eigen::Vector3d& ray) const {
         const region_pair pair =
             std::minmax(static_cast<point_index>(own), static_cast<point_index>(other));
-        const auto found = std::ranges::lower_bound(edges_, pair, {}, &region_edge::regions);
+        const auto found = std::ranges::lower_bound(edges_, pair, {}, &Edge::regions);
         if (found == edges_.end() || found->regions != pair) return false;
         return found->side_of(at, ray) == (own < other ? 1 : -1);
     }
@@ -112,7 +116,7 @@ class region_edges {
   private:
     /// Whether a shallow edge is where the labels say: at most a tenth of the points of the smaller
     /// region are on the wrong side. Two planes with a step between them meet elsewhere.
-    [[nodiscard]] static bool separates(const region_edge& edge, const auto& cloud,
+    [[nodiscard]] static bool separates(const Edge& edge, const auto& cloud,
                                         const label_groups& members) {
         constexpr std::size_t part = 10;  // numerical
         const auto &first = members[edge.regions.first], &second = members[edge.regions.second];
@@ -125,7 +129,7 @@ class region_edges {
                std::min(first.size(), second.size());
     }
 
-    scratch<region_edge> edges_;
+    scratch<Edge> edges_;
 };
 
 }  // namespace gnomon::detail

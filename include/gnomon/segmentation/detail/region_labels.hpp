@@ -15,15 +15,14 @@
 namespace gnomon::detail {
 
 /// Replaces labels, but `unlabeled`, by number_of(label).
-inline void renumber(scratch<std::int32_t>& labels, auto&& number_of) {
+void renumber(auto& labels, auto&& number_of) {
     for (std::int32_t& label : labels)
         if (label != unlabeled) label = number_of(label);
 }
 
 /// Sets the sums and planes of the regions of labels. Regions that are too small, or no planes,
 /// become empty, and their points unlabeled. O(n)
-inline void fit_regions(const planar_cloud& cloud, std::size_t min_points,
-                        scratch<std::int32_t>& labels, scratch<planar_region>& regions) {
+void fit_regions(const auto& cloud, std::size_t min_points, auto& labels, auto& regions) {
     std::int32_t most = unlabeled;
     for (const std::int32_t label : labels) most = std::max(most, label);
     regions.assign(static_cast<std::size_t>(most + 1), {});
@@ -39,7 +38,7 @@ inline void fit_regions(const planar_cloud& cloud, std::size_t min_points,
 }
 
 /// Numbers regions again, without the empty ones. O(n)
-inline void number_regions(scratch<std::int32_t>& labels, scratch<planar_region>& regions) {
+void number_regions(auto& labels, auto& regions) {
     scratch<std::int32_t> number(regions.size(), unlabeled);
     std::size_t kept = 0;
     for (std::size_t r = 0; r < regions.size(); ++r) {

@@ -81,7 +81,7 @@ struct surface_patch {
 
 /// A part by the sums of its points; some.
 /// @param region  that it is of
-[[nodiscard]] inline surface_part part_with(const plane_sums& sums, const planar_region& region) {
+[[nodiscard]] surface_part part_with(const auto& sums, const auto& region) {
     const plane& own = region.fit.plane;
     const Eigen::Vector3d mean = sums.positions.mean();
     const double variance = sums.noise_across(own.normal);  // of the mean
