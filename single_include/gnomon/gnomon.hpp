@@ -3685,50 +3685,46 @@ class tree_query {
             const point_index i = tree_.index()[begin + l];
             if (i == question_.except) continue;
             if (question_.among != nullptr && !question_.among->contains(begin + l)) continue;
-            if (most_ > few)
-                found_.push_back({squared[l], i});
+            const neighbor q{squared[l], i};
+            if (most_ > few || found_.size() < most_)
+                found_.push_back(q);
+            else if (q < found_.back())
+                found_.back() = q;
             else
-                insert({squared[l], i});
+                continue;
+            if (most_ <= few) put_last_in_order();
         }
-        if (most_ > few) {
-            if (found_.size() >= full_) drop_farthest();
-        } else if (found_.size() == most_) {
-            last_ = found_.back();
-            tighten();
-        }
+        if (found_.size() >= (most_ > few ? full_ : most_)) drop_farthest();
     }
 
-    /// Adds one of few candidates, which are in canonical order, or drops it if it is the farthest.
-    void insert(const neighbor& q) {
-        if (found_.size() < most_)
-            found_.push_back(q);
-        else if (!(q < found_.back()))
-            return;
+    /// Moves the last one of few candidates, the others of which are in canonical order, to its
+    /// place among them.
+    void put_last_in_order() {
+        const neighbor q = found_.back();
         neighbor* const first = found_.data();
         neighbor* at = first + (found_.size() - 1);
         for (; at != first && q < at[-1]; --at) *at = at[-1];
         *at = q;
     }
 
-    /// Keeps the nearest `most_` candidates.
+    /// Keeps the nearest `most_` candidates, and leaves out what is farther from now on.
     void drop_farthest() {
-        const auto put_in_place = [this](std::size_t rank) {
-            std::nth_element(found_.data(), found_.data() + rank, found_.data() + found_.size());
+        const auto put_in_place = [this](std::size_t n) {
+            neighbor* const first = found_.data();
+            std::nth_element(first, first + n, first + found_.size());
         };
-        put_in_place(most_ - 1);
-        found_.resize(most_);
+        const bool is_in_order = most_ <= few;
+        if (!is_in_order) {
+            put_in_place(most_ - 1);
+            found_.resize(most_);
+        }
         last_ = found_.back();  // before the k-th is put in place
-        if (most_ > question_.k) put_in_place(question_.k - 1);
-        tighten();
-    }
-
-    /// Leaves out what is farther than the nearest `most_` candidates. Precondition: the farthest
-    /// of them is known, and the k-th is in place.
-    void tighten() {
         has_last_ = true;
         double kth = last_.squared_distance;
-        if (most_ > question_.k)
+        if (most_ > question_.k) {
+            if (!is_in_order) put_in_place(question_.k - 1);
             kth = std::min(kth, tie_margin * found_[question_.k - 1].squared_distance);
+        }
         limit_ = std::min(limit_, kth);
         horizon_ = std::min(horizon_, kth * shrink_);
     }
@@ -4267,6 +4263,22 @@ class adjacency {
 };
 
 }  // namespace gnomon
+
+// -------- gnomon/core/detail/begins_from_sizes.hpp -----------------------------------------------
+
+/// @file
+/// Where each group of an array begins that holds groups one after the other.
+
+namespace gnomon::detail {
+
+/// Replaces sizes by begins: begin[g + 1] is the size of group g before and where group g + 1
+/// begins afterwards. Precondition: begin[0] is 0. (std::partial_sum would do, but costs every user
+/// of a graph the time to compile <numeric>.)
+void begins_from_sizes(auto& begin) {
+    for (std::size_t g = 1; g < begin.size(); ++g) begin[g] += begin[g - 1];
+}
+
+}  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/detail/lane_instructions.hpp --------------------------------------
 
@@ -5775,7 +5787,7 @@ void sweep_any_sizes(std::size_t n, const X& run, auto& graph, auto&& sweep) {
     recorded_neighborhoods<std::remove_reference_t<decltype(begin)>> all{begin};
     sweep([&] { return neighborhood_recorder(all); });
 
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    begins_from_sizes(begin);
     auto& indices = graph.indices;
     resize_touched(indices, static_cast<std::size_t>(begin.back()), run);
     run(all.parts.size(), [&](std::size_t c) {
@@ -5834,7 +5846,7 @@ template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
             for (const neighbor& q : found) indices.push_back(q.index);
         }
     });
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    begins_from_sizes(begin);
     auto& indices = memory.indices;
     indices.clear();
     indices.reserve(static_cast<std::size_t>(begin.back()));
@@ -13762,7 +13774,7 @@ void group_by_label(std::span<const std::int32_t> labels, auto& begin, auto& mem
     begin.assign(static_cast<std::size_t>(std::max<std::int64_t>(last, -1) + 2), 0);
     for (const std::int32_t l : labels)
         if (l >= 0) ++begin[static_cast<std::size_t>(l) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    begins_from_sizes(begin);
     members.resize(begin.back());
     // Each begin[l] is advanced to the end of its group, which is the begin of the next one.
     for (std::size_t i = 0; i < labels.size(); ++i)
@@ -15704,11 +15716,12 @@ namespace gnomon::detail {
 
 /// Merges regions in rounds, the most similar pair first, until a round merges none. Within a round
 /// a pair is compared again if one of its regions has grown; the pair is merged if its
-/// dissimilarity is still at most 1.
+/// dissimilarity is still at most 1. (A template, so that only its users compile it.)
+template <class Region>
 class agglomeration {
   public:
     /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
-    explicit agglomeration(scratch<planar_region>& regions)
+    explicit agglomeration(scratch<Region>& regions)
         : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
 
     /// @param pairs          to be compared, each once
@@ -15780,7 +15793,7 @@ class agglomeration {
         return any;
     }
 
-    scratch<planar_region>& regions_;
+    scratch<Region>& regions_;
     union_find sets_;
     scratch<char> is_new_;  // changed since the round before
 };
@@ -16213,35 +16226,6 @@ namespace gnomon::detail {
 /// several parts across its curve.
 inline constexpr std::size_t parts_along = 8;
 
-/// A grid of parts over the extent of some places.
-class part_grid {
-  public:
-    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
-
-    void enclose(const Eigen::Vector3d& place) {
-        for (std::size_t a = 0; a < 2; ++a) {
-            low_[a] = std::min(low_[a], dot(axes_[a], place));
-            high_[a] = std::max(high_[a], dot(axes_[a], place));
-        }
-    }
-    [[nodiscard]] std::size_t part_of(const Eigen::Vector3d& place) const {
-        return number(0, place) * parts_along + number(1, place);
-    }
-
-  private:
-    [[nodiscard]] std::size_t number(std::size_t a, const Eigen::Vector3d& place) const {
-        const double extent = high_[a] - low_[a];
-        if (!(extent > 0.0)) return 0;
-        constexpr auto parts = static_cast<double>(parts_along);
-        return static_cast<std::size_t>(
-            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
-    }
-
-    static constexpr double none = std::numeric_limits<double>::infinity();
-    std::array<Eigen::Vector3d, 2> axes_;
-    std::array<double, 2> low_{none, none}, high_{-none, -none};
-};
-
 /// A part of a region.
 struct surface_part {
     Eigen::Vector3d mean;   ///< of its points, from the origin of the cloud [m]
@@ -16258,7 +16242,8 @@ struct surface_patch {
     double excess = 1.0;      ///< the largest of the regions: region_plane::excess
     std::size_t regions = 0;  ///< planar ones
 
-    void add(const surface_patch& more) {
+    /// (A template, so that only its users compile it.)
+    void add(const auto& more) {
         parts.insert(parts.end(), more.parts.begin(), more.parts.end());
         sums.add(more.sums);
         excess = std::max(excess, more.excess);
@@ -16266,8 +16251,9 @@ struct surface_patch {
     }
 };
 
-/// A part by the sums of its points; some.
-/// @param region  that it is of
+/// A part by the sums of its points. (A template, so that only its users compile it.)
+/// @param sums    plane_sums of at least one point
+/// @param region  the planar_region that it is of
 [[nodiscard]] surface_part part_with(const auto& sums, const auto& region) {
     const plane& own = region.fit.plane;
     const Eigen::Vector3d mean = sums.positions.mean();
@@ -16275,23 +16261,6 @@ struct surface_patch {
     const double of_point = static_cast<double>(sums.count) * variance * region.fit.excess();
     return {mean, 1.0 / variance, own.signed_distance(mean), most_deviations * std::sqrt(of_point),
             sums.count};
-}
-
-/// The parts of a planar region. O(n)
-/// @param cloud    a planar_cloud
-/// @param members  of the region, all finite
-template <class Cloud>
-[[nodiscard]] surface_patch patch_of(const Cloud& cloud, const planar_region& region,
-                                     std::span<const point_index> members) {
-    const eigen_decomposition principal = symmetric_eigen(region.sums.positions.covariance());
-    part_grid grid(column(principal.vectors, 0), column(principal.vectors, 1));
-    for (const point_index i : members) grid.enclose(cloud.offsets[i]);
-    std::array<plane_sums, parts_along * parts_along> sums{};
-    for (const point_index i : members) cloud.add(i, sums[grid.part_of(cloud.offsets[i])]);
-    surface_patch patch{{}, region.sums, region.fit.excess(), 1};
-    for (const plane_sums& part : sums)
-        if (part.count > 0) patch.parts.push_back(part_with(part, region));
-    return patch;
 }
 
 }  // namespace gnomon::detail
@@ -16305,7 +16274,7 @@ namespace gnomon::detail {
 
 /// The parts of two patches, and their heights over a paraboloid that fits them. (A template, so
 /// that only its users compile it.)
-template <class Patch = surface_patch>
+template <class Patch = surface_patch, class Part = surface_part>
 class common_paraboloid {
   public:
     common_paraboloid(const Patch& a, const Patch& b)
@@ -16409,7 +16378,7 @@ class common_paraboloid {
 
     std::array<const Patch*, 2> patches_;
     region_plane base_;
-    scratch<const surface_part*> parts_;  // of both
+    scratch<const Part*> parts_;  // of both
     scratch<double> weights_;
 };
 
@@ -16425,7 +16394,7 @@ namespace gnomon::detail {
 
 /// Squares over the extent of a region in its plane, with the sums of its points. (A template, so
 /// that only its users compile it.)
-template <class Cloud>
+template <class Cloud, class Sums = plane_sums>
 class plane_squares {
   public:
     /// @param members  of the region, all finite; some
@@ -16464,7 +16433,7 @@ class plane_squares {
         }
     }
 
-    scratch<plane_sums> sums;  ///< of each square; none if all points are one place
+    scratch<Sums> sums;  ///< of each square; none if all points are one place
 
     /// Of a member.
     [[nodiscard]] std::size_t square_of(std::size_t member) const { return square_of_[member]; }
@@ -16507,8 +16476,8 @@ class plane_squares {
 
 namespace gnomon::detail {
 
-/// The search for the steps within one region.
-template <class Cloud>
+/// The search for the steps within one region. (Of numbers for compile time only.)
+template <class Cloud, class Number = double>
 class step_search {
   public:
     step_search(const Cloud& cloud, std::span<const point_index> members,
@@ -16543,10 +16512,10 @@ class step_search {
   private:
     /// A step of one standard deviation is four of those of the mean of a square.
     static constexpr double points_of_square = 16.0;  // numerical
-    /// Share of the points that the plane of most is fit to; formula: of least trimmed squares.
-    static constexpr double core = 0.5;
-    /// Share of the points that the rest must have; numerical: a step may halve a region.
-    static constexpr double least = 0.4;
+    /// The plane of most is fit to this share of the points.
+    static constexpr double core = 0.5;  // formula: of least trimmed squares
+    /// The rest has at least this share of the points, as a step may halve a region.
+    static constexpr double least = 0.4;  // numerical
 
     [[nodiscard]] bool is_of_rest(std::size_t s) const {
         return part_[s] == rest && squares_.sums[s].count > 0;
@@ -16583,7 +16552,7 @@ class step_search {
     [[nodiscard]] region_plane settled(region_plane level) const {
         constexpr int passes = 10;  // numerical: then it hardly moves
         for (int pass = 0; pass < passes && level.is_determined; ++pass) {
-            scratch<std::pair<double, std::size_t>> nearest;
+            scratch<std::pair<Number, std::size_t>> nearest;
             std::size_t points = 0;
             for (std::size_t s = 0; s < part_.size(); ++s) {
                 if (!is_of_rest(s)) continue;
@@ -16805,10 +16774,10 @@ class plane_regions {
     /// @param cut_of  cut_of(members, region): the numbers of the parts that they are of, or none;
     ///                all but 0 become regions of their own
     /// @return whether a region was cut
-    template <execution X>
+    template <execution X, class Label = std::int32_t>
     bool cut(const X& run, auto&& cut_of) {
         const label_groups members(labels_);
-        scratch<scratch<std::int32_t>> parts(members.size());
+        scratch<scratch<Label>> parts(members.size());
         run(members.size(), [&](std::size_t r) { parts[r] = cut_of(members[r], regions_[r]); });
         auto next = static_cast<std::int32_t>(regions_.size());
         const std::int32_t first = next;
@@ -23415,7 +23384,7 @@ struct local_points {
             cells[i] = static_cast<std::uint16_t>(cell);
             ++begin[cell + 1];
         }
-        for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
+        begins_from_sizes(begin);
         std::vector<Eigen::Vector3d> sorted(positions.size());
         std::vector<point_index> sorted_indices(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -30101,6 +30070,53 @@ class stopwatch {
 /// it explains them as well, and one of them is curved by itself.
 
 namespace gnomon::detail {
+
+/// A grid of parts over the extent of some places. (Templates, so that only their users compile
+/// them.)
+class part_grid {
+  public:
+    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
+
+    void enclose(const auto& place) {
+        for (std::size_t a = 0; a < 2; ++a) {
+            low_[a] = std::min(low_[a], dot(axes_[a], place));
+            high_[a] = std::max(high_[a], dot(axes_[a], place));
+        }
+    }
+    [[nodiscard]] std::size_t part_of(const auto& place) const {
+        return number(0, place) * parts_along + number(1, place);
+    }
+
+  private:
+    [[nodiscard]] std::size_t number(std::size_t a, const auto& place) const {
+        const double extent = high_[a] - low_[a];
+        if (!(extent > 0.0)) return 0;
+        constexpr auto parts = static_cast<double>(parts_along);
+        return static_cast<std::size_t>(
+            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
+    }
+
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    std::array<Eigen::Vector3d, 2> axes_;
+    std::array<double, 2> low_{none, none}, high_{-none, -none};
+};
+
+/// The parts of a planar region. O(n)
+/// @param cloud    a planar_cloud
+/// @param members  of the region, all finite
+template <class Cloud>
+[[nodiscard]] surface_patch patch_of(const Cloud& cloud, const planar_region& region,
+                                     std::span<const point_index> members) {
+    const eigen_decomposition principal = symmetric_eigen(region.sums.positions.covariance());
+    part_grid grid(column(principal.vectors, 0), column(principal.vectors, 1));
+    for (const point_index i : members) grid.enclose(cloud.offsets[i]);
+    std::array<plane_sums, parts_along * parts_along> sums{};
+    for (const point_index i : members) cloud.add(i, sums[grid.part_of(cloud.offsets[i])]);
+    surface_patch patch{{}, region.sums, region.fit.excess(), 1};
+    for (const plane_sums& part : sums)
+        if (part.count > 0) patch.parts.push_back(part_with(part, region));
+    return patch;
+}
 
 /// Whether two regions next to each other are pieces of one curved surface: their planes are
 /// certainly turned, and not at an edge.

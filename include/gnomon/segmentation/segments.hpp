@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/begins_from_sizes.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
@@ -31,7 +31,7 @@ void group_by_label(std::span<const std::int32_t> labels, auto& begin, auto& mem
     begin.assign(static_cast<std::size_t>(std::max<std::int64_t>(last, -1) + 2), 0);
     for (const std::int32_t l : labels)
         if (l >= 0) ++begin[static_cast<std::size_t>(l) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    begins_from_sizes(begin);
     members.resize(begin.back());
     // Each begin[l] is advanced to the end of its group, which is the begin of the next one.
     for (std::size_t i = 0; i < labels.size(); ++i)

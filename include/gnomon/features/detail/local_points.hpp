@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/begins_from_sizes.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>
@@ -113,7 +114,7 @@ struct local_points {
             cells[i] = static_cast<std::uint16_t>(cell);
             ++begin[cell + 1];
         }
-        for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
+        begins_from_sizes(begin);
         std::vector<Eigen::Vector3d> sorted(positions.size());
         std::vector<point_index> sorted_indices(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/begins_from_sizes.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -44,7 +44,7 @@ template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
             for (const neighbor& q : found) indices.push_back(q.index);
         }
     });
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    begins_from_sizes(begin);
     auto& indices = memory.indices;
     indices.clear();
     indices.reserve(static_cast<std::size_t>(begin.back()));

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/begins_from_sizes.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>
@@ -122,7 +122,7 @@ void sweep_any_sizes(std::size_t n, const X& run, auto& graph, auto&& sweep) {
     recorded_neighborhoods<std::remove_reference_t<decltype(begin)>> all{begin};
     sweep([&] { return neighborhood_recorder(all); });
 
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    begins_from_sizes(begin);
     auto& indices = graph.indices;
     resize_touched(indices, static_cast<std::size_t>(begin.back()), run);
     run(all.parts.size(), [&](std::size_t c) {

@@ -153,50 +153,46 @@ class tree_query {
             const point_index i = tree_.index()[begin + l];
             if (i == question_.except) continue;
             if (question_.among != nullptr && !question_.among->contains(begin + l)) continue;
-            if (most_ > few)
-                found_.push_back({squared[l], i});
+            const neighbor q{squared[l], i};
+            if (most_ > few || found_.size() < most_)
+                found_.push_back(q);
+            else if (q < found_.back())
+                found_.back() = q;
             else
-                insert({squared[l], i});
+                continue;
+            if (most_ <= few) put_last_in_order();
         }
-        if (most_ > few) {
-            if (found_.size() >= full_) drop_farthest();
-        } else if (found_.size() == most_) {
-            last_ = found_.back();
-            tighten();
-        }
+        if (found_.size() >= (most_ > few ? full_ : most_)) drop_farthest();
     }
 
-    /// Adds one of few candidates, which are in canonical order, or drops it if it is the farthest.
-    void insert(const neighbor& q) {
-        if (found_.size() < most_)
-            found_.push_back(q);
-        else if (!(q < found_.back()))
-            return;
+    /// Moves the last one of few candidates, the others of which are in canonical order, to its
+    /// place among them.
+    void put_last_in_order() {
+        const neighbor q = found_.back();
         neighbor* const first = found_.data();
         neighbor* at = first + (found_.size() - 1);
         for (; at != first && q < at[-1]; --at) *at = at[-1];
         *at = q;
     }
 
-    /// Keeps the nearest `most_` candidates.
+    /// Keeps the nearest `most_` candidates, and leaves out what is farther from now on.
     void drop_farthest() {
-        const auto put_in_place = [this](std::size_t rank) {
-            std::nth_element(found_.data(), found_.data() + rank, found_.data() + found_.size());
+        const auto put_in_place = [this](std::size_t n) {
+            neighbor* const first = found_.data();
+            std::nth_element(first, first + n, first + found_.size());
         };
-        put_in_place(most_ - 1);
-        found_.resize(most_);
+        const bool is_in_order = most_ <= few;
+        if (!is_in_order) {
+            put_in_place(most_ - 1);
+            found_.resize(most_);
+        }
         last_ = found_.back();  // before the k-th is put in place
-        if (most_ > question_.k) put_in_place(question_.k - 1);
-        tighten();
-    }
-
-    /// Leaves out what is farther than the nearest `most_` candidates. Precondition: the farthest
-    /// of them is known, and the k-th is in place.
-    void tighten() {
         has_last_ = true;
         double kth = last_.squared_distance;
-        if (most_ > question_.k)
+        if (most_ > question_.k) {
+            if (!is_in_order) put_in_place(question_.k - 1);
             kth = std::min(kth, tie_margin * found_[question_.k - 1].squared_distance);
+        }
         limit_ = std::min(limit_, kth);
         horizon_ = std::min(horizon_, kth * shrink_);
     }

@@ -18,11 +18,12 @@ namespace gnomon::detail {
 
 /// Merges regions in rounds, the most similar pair first, until a round merges none. Within a round
 /// a pair is compared again if one of its regions has grown; the pair is merged if its
-/// dissimilarity is still at most 1.
+/// dissimilarity is still at most 1. (A template, so that only its users compile it.)
+template <class Region>
 class agglomeration {
   public:
     /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
-    explicit agglomeration(scratch<planar_region>& regions)
+    explicit agglomeration(scratch<Region>& regions)
         : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
 
     /// @param pairs          to be compared, each once
@@ -94,7 +95,7 @@ class agglomeration {
         return any;
     }
 
-    scratch<planar_region>& regions_;
+    scratch<Region>& regions_;
     union_find sets_;
     scratch<char> is_new_;  // changed since the round before
 };

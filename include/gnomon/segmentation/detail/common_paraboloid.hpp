@@ -22,7 +22,7 @@ namespace gnomon::detail {
 
 /// The parts of two patches, and their heights over a paraboloid that fits them. (A template, so
 /// that only its users compile it.)
-template <class Patch = surface_patch>
+template <class Patch = surface_patch, class Part = surface_part>
 class common_paraboloid {
   public:
     common_paraboloid(const Patch& a, const Patch& b)
@@ -126,7 +126,7 @@ class common_paraboloid {
 
     std::array<const Patch*, 2> patches_;
     region_plane base_;
-    scratch<const surface_part*> parts_;  // of both
+    scratch<const Part*> parts_;  // of both
     scratch<double> weights_;
 };
 

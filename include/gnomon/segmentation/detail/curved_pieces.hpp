@@ -6,14 +6,22 @@
 /// it explains them as well, and one of them is curved by itself.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
+
+#include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/union_find.hpp>
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/common_paraboloid.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
@@ -24,6 +32,53 @@
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
+
+/// A grid of parts over the extent of some places. (Templates, so that only their users compile
+/// them.)
+class part_grid {
+  public:
+    part_grid(const Eigen::Vector3d& along, const Eigen::Vector3d& across) : axes_{along, across} {}
+
+    void enclose(const auto& place) {
+        for (std::size_t a = 0; a < 2; ++a) {
+            low_[a] = std::min(low_[a], dot(axes_[a], place));
+            high_[a] = std::max(high_[a], dot(axes_[a], place));
+        }
+    }
+    [[nodiscard]] std::size_t part_of(const auto& place) const {
+        return number(0, place) * parts_along + number(1, place);
+    }
+
+  private:
+    [[nodiscard]] std::size_t number(std::size_t a, const auto& place) const {
+        const double extent = high_[a] - low_[a];
+        if (!(extent > 0.0)) return 0;
+        constexpr auto parts = static_cast<double>(parts_along);
+        return static_cast<std::size_t>(
+            std::clamp(parts * (dot(axes_[a], place) - low_[a]) / extent, 0.0, parts - 1.0));
+    }
+
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    std::array<Eigen::Vector3d, 2> axes_;
+    std::array<double, 2> low_{none, none}, high_{-none, -none};
+};
+
+/// The parts of a planar region. O(n)
+/// @param cloud    a planar_cloud
+/// @param members  of the region, all finite
+template <class Cloud>
+[[nodiscard]] surface_patch patch_of(const Cloud& cloud, const planar_region& region,
+                                     std::span<const point_index> members) {
+    const eigen_decomposition principal = symmetric_eigen(region.sums.positions.covariance());
+    part_grid grid(column(principal.vectors, 0), column(principal.vectors, 1));
+    for (const point_index i : members) grid.enclose(cloud.offsets[i]);
+    std::array<plane_sums, parts_along * parts_along> sums{};
+    for (const point_index i : members) cloud.add(i, sums[grid.part_of(cloud.offsets[i])]);
+    surface_patch patch{{}, region.sums, region.fit.excess(), 1};
+    for (const plane_sums& part : sums)
+        if (part.count > 0) patch.parts.push_back(part_with(part, region));
+    return patch;
+}
 
 /// Whether two regions next to each other are pieces of one curved surface: their planes are
 /// certainly turned, and not at an edge.

@@ -124,10 +124,10 @@ class plane_regions {
     /// @param cut_of  cut_of(members, region): the numbers of the parts that they are of, or none;
     ///                all but 0 become regions of their own
     /// @return whether a region was cut
-    template <execution X>
+    template <execution X, class Label = std::int32_t>
     bool cut(const X& run, auto&& cut_of) {
         const label_groups members(labels_);
-        scratch<scratch<std::int32_t>> parts(members.size());
+        scratch<scratch<Label>> parts(members.size());
         run(members.size(), [&](std::size_t r) { parts[r] = cut_of(members[r], regions_[r]); });
         auto next = static_cast<std::int32_t>(regions_.size());
         const std::int32_t first = next;

@@ -20,7 +20,7 @@ namespace gnomon::detail {
 
 /// Squares over the extent of a region in its plane, with the sums of its points. (A template, so
 /// that only its users compile it.)
-template <class Cloud>
+template <class Cloud, class Sums = plane_sums>
 class plane_squares {
   public:
     /// @param members  of the region, all finite; some
@@ -59,7 +59,7 @@ class plane_squares {
         }
     }
 
-    scratch<plane_sums> sums;  ///< of each square; none if all points are one place
+    scratch<Sums> sums;  ///< of each square; none if all points are one place
 
     /// Of a member.
     [[nodiscard]] std::size_t square_of(std::size_t member) const { return square_of_[member]; }

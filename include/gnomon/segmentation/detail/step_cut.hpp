@@ -25,8 +25,8 @@
 
 namespace gnomon::detail {
 
-/// The search for the steps within one region.
-template <class Cloud>
+/// The search for the steps within one region. (Of numbers for compile time only.)
+template <class Cloud, class Number = double>
 class step_search {
   public:
     step_search(const Cloud& cloud, std::span<const point_index> members,
@@ -61,10 +61,10 @@ class step_search {
   private:
     /// A step of one standard deviation is four of those of the mean of a square.
     static constexpr double points_of_square = 16.0;  // numerical
-    /// Share of the points that the plane of most is fit to; formula: of least trimmed squares.
-    static constexpr double core = 0.5;
-    /// Share of the points that the rest must have; numerical: a step may halve a region.
-    static constexpr double least = 0.4;
+    /// The plane of most is fit to this share of the points.
+    static constexpr double core = 0.5;  // formula: of least trimmed squares
+    /// The rest has at least this share of the points, as a step may halve a region.
+    static constexpr double least = 0.4;  // numerical
 
     [[nodiscard]] bool is_of_rest(std::size_t s) const {
         return part_[s] == rest && squares_.sums[s].count > 0;
@@ -101,7 +101,7 @@ class step_search {
     [[nodiscard]] region_plane settled(region_plane level) const {
         constexpr int passes = 10;  // numerical: then it hardly moves
         for (int pass = 0; pass < passes && level.is_determined; ++pass) {
-            scratch<std::pair<double, std::size_t>> nearest;
+            scratch<std::pair<Number, std::size_t>> nearest;
             std::size_t points = 0;
             for (std::size_t s = 0; s < part_.size(); ++s) {
                 if (!is_of_rest(s)) continue;
