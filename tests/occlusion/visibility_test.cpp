@@ -300,6 +300,12 @@ TEST(visibility, end_below_what_was_seen_in_the_same_azimuth) {
     EXPECT_EQ(visible.towards({-2.0, 1.0, 0.0}), observation::out_of_view);
     EXPECT_EQ(visible.towards({3.5, 0.0, 0.0}), observation::out_of_view);
     EXPECT_EQ(visible.towards({4.41, 0.0, 0.0}), observation::on_surface);
+    for (int degree = 0; degree < 360; ++degree) {
+        const gnomon::angle turned = gnomon::degrees(degree);
+        EXPECT_EQ(visible.towards({3.7 * cos(turned), 3.7 * sin(turned), 0.0}),
+                  observation::out_of_view)
+            << degree;
+    }
 }
 
 /// Of a sensor that sees only itself.

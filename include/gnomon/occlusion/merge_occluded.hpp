@@ -38,8 +38,8 @@ struct merge_occluded_options {
     /// them.
     double max_gap = 0.20;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
-    /// k_c, the coplanar segments with nearest centroids that each is compared with; chosen on
-    /// furnished rooms 20,001 to 20,024, where all as candidates give the same result.
+    /// k_c, the coplanar segments with nearest centroids that each is compared with; performance
+    /// only: in furnished rooms 20,001 to 20,024 all as candidates give the same result.
     std::size_t candidates = 20;
 };
 
