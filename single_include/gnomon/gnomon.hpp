@@ -13935,7 +13935,7 @@ void unite_labels(auto& labels, union_find& sets) {
 namespace gnomon::detail {
 
 /// The plane through the line in which the planes of two regions meet that halves the larger of
-/// their angles.
+/// their angles, which is that between the regions if these turn by less than 90 degrees.
 /// @return the plane, the first region on its negative side; nothing if their centroids are on the
 ///         same side
 [[nodiscard]] std::optional<plane> middle_of(const auto& a, const auto& b) {
@@ -13947,26 +13947,30 @@ namespace gnomon::detail {
     if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
     const plane middle{scaled(scale, between),
                        scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
-    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
-        middle.signed_distance(b.fit.centroid) <= 0.0)
+    if (!(middle.signed_distance(a.fit.centroid) < 0.0 &&
+          middle.signed_distance(b.fit.centroid) > 0.0))
         return std::nullopt;
     return middle;
 }
+
+/// A tenth of a region may be on the wrong side of its edge.
+inline constexpr std::size_t part_on_wrong_side = 10;  // numerical
 
 /// The edge between two regions. (A template, so that only its users compile it.)
 template <class Plane = plane>
 class region_edge {
   public:
-    /// @param ray  from the view point to a point of either region
-    region_edge(const region_pair& pair, const auto& a, const auto& b, const Eigen::Vector3d& ray)
+    /// @param viewpoint  of a point of either region, from the origin of the cloud [m]
+    region_edge(const region_pair& pair, const auto& a, const auto& b,
+                const Eigen::Vector3d& viewpoint)
         : regions(pair), first_(a.fit.plane), second_(b.fit.plane) {
-        const bool is_before_a = is_before(first_, b.fit.centroid, ray);
-        is_seen = is_before_a == is_before(second_, a.fit.centroid, ray);
+        const bool is_before_a = is_before(first_, b.fit.centroid, viewpoint);
+        is_seen = is_before_a == is_before(second_, a.fit.centroid, viewpoint);
         is_corner_ = is_before_a;
     }
 
     region_pair regions;
-    bool is_seen;  ///< both sides of it, by the ray: else one of them occludes the other
+    bool is_seen;  ///< both sides of it, from the view point: else one of them occludes the other
 
     /// -1 if a ray ends on the first plane, 1 if on the second one, 0 if it does not meet both.
     /// @param at   the point, from the origin of the cloud [m]
@@ -13980,10 +13984,10 @@ class region_edge {
     }
 
   private:
-    /// Whether a place is on that side of a plane from which rays come.
+    /// Whether a place is on that side of a plane on which the view point is.
     [[nodiscard]] static bool is_before(const Plane& p, const Eigen::Vector3d& place,
-                                        const Eigen::Vector3d& ray) {
-        return p.signed_distance(place) * dot(p.normal, ray) < 0.0;
+                                        const Eigen::Vector3d& viewpoint) {
+        return p.signed_distance(place) * p.signed_distance(viewpoint) > 0.0;
     }
 
     Plane first_, second_;
@@ -14004,18 +14008,17 @@ class region_edges {
         const label_groups members(labels);
         for (const region_pair& pair : touching) {
             const auto &a = regions[pair.first], &b = regions[pair.second];
-            if (!are_at_crease(a, b) || !middle_of(a, b)) continue;
-            const Edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
+            if (!are_at_crease(a, b)) continue;
+            const point_index any = members[pair.first].front();
+            const Edge edge(pair, a, b, difference(cloud.offsets[any], cloud.ray(any)));
             if (!edge.is_seen) continue;
             if (are_turned(a, b, widest_crease) || separates(edge, cloud, members))
                 edges_.push_back(edge);
         }
     }
 
-    /// Whether a point of one of two regions is, by its ray, of the other. (A template, so that
-    /// only its users compile it.)
-    template <class Label>
-    [[nodiscard]] bool is_across(Label own, Label other, const Eigen::Vector3d& at,
+    /// Whether a point of one of two regions is, by its ray, of the other.
+    [[nodiscard]] bool is_across(std::int32_t own, std::int32_t other, const Eigen::Vector3d& at,
                                  const Eigen::Vector3d& ray) const {
         const region_pair pair =
             std::minmax(static_cast<point_index>(own), static_cast<point_index>(other));
@@ -14029,14 +14032,13 @@ class region_edges {
     /// region are on the wrong side. Two planes with a step between them meet elsewhere.
     [[nodiscard]] static bool separates(const Edge& edge, const auto& cloud,
                                         const label_groups& members) {
-        constexpr std::size_t part = 10;  // numerical
         const auto &first = members[edge.regions.first], &second = members[edge.regions.second];
         const auto wrong = [&](const auto& points, int side) {
             return std::ranges::count_if(points, [&](point_index i) {
                 return edge.side_of(cloud.offsets[i], cloud.ray(i)) == side;
             });
         };
-        return part * static_cast<std::size_t>(wrong(first, 1) + wrong(second, -1)) <=
+        return part_on_wrong_side * static_cast<std::size_t>(wrong(first, 1) + wrong(second, -1)) <=
                std::min(first.size(), second.size());
     }
 
@@ -14078,15 +14080,13 @@ class label_competition {
     /// @param misfit     misfit(label): the square of the deviation of the point, in variances of
     ///                   its region; negative if it is impossible
     /// @param is_across  is_across(label, other): whether both meet at an edge, and the point is on
-    ///                   the side of the other one; counts as if no neighbor had the label
+    ///                   the side of the other one; then the cost grows by as much as if all
+    ///                   neighbors had another label
     [[nodiscard]] std::int32_t winner(auto&& misfit, auto&& is_across) {
-        constexpr double half =
-            0.5;  // formula: of a squared deviation, the logarithm of its density
+        constexpr double half = 0.5;   // formula: the logarithm of a normal density
         constexpr double potts = 2.0;  // per share of neighbors with another label; chosen
-        std::erase_if(candidates_, [&](candidate& c) {
-            c.squared = misfit(c.label);
-            return c.squared < 0.0;
-        });
+        for (candidate& c : candidates_) c.squared = misfit(c.label);
+        std::erase_if(candidates_, [](const candidate& c) { return c.squared < 0.0; });
         std::pair best(std::numeric_limits<double>::infinity(), unlabeled);
         for (const candidate& c : candidates_) {
             const bool is_beyond = std::ranges::any_of(candidates_, [&](const candidate& other) {
@@ -14149,8 +14149,8 @@ template <neighborhood_graph G, execution X>
     return is_border;
 }
 
-/// The pairs of regions that have neighboring points, or one between them that is unlabeled,
-/// sorted. O(n k) for k neighbors.
+/// The pairs of regions that have neighboring points, sorted; around an unlabeled point, those of
+/// its first labeled neighbor with each of the others. O(n k) for k neighbors.
 /// @param is_border  of each point that has a neighbor with another label
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<region_pair> touching_regions(const G& graph, const auto& labels,
@@ -14878,7 +14878,12 @@ struct plane_adjustment {
         }
     }
 
-    /// The covariance of the parameters.
+    /// Whether the points determine all parameters, up to rounding.
+    [[nodiscard]] bool is_determined() const {
+        return scaled_equations<plane_parameters>(equations).is_regular();
+    }
+
+    /// The covariance of the parameters. Precondition: is_determined().
     [[nodiscard]] auto covariance() const {
         return scaled_equations<plane_parameters>(equations).covariance();
     }
@@ -15004,19 +15009,21 @@ template <class Cloud>
     return count;
 }
 
-/// The normal equations of a plane about the mean of the points on it, along their principal axes.
+/// The normal equations of a plane about the mean of the points on it, along their principal axes;
+/// nothing if these points do not determine a plane, as where most are off it and few on one line.
 template <class Cloud>
-[[nodiscard]] plane_adjustment<Cloud> adjustment_of(const Cloud& cloud,
-                                                    std::span<const point_index> members,
-                                                    const region_plane& of) {
+[[nodiscard]] std::optional<plane_adjustment<Cloud>> adjustment_of(
+    const Cloud& cloud, std::span<const point_index> members, const region_plane& of) {
     const auto is_on = [&](point_index i) { return cloud.is_on(i, of); };
     const gnomon::plane& p = of.plane;
     plane_adjustment<Cloud> first(
         tangent_basis(p.normal),
         combined(1.0, of.centroid, -p.signed_distance(of.centroid), p.normal));
     first.add_all(cloud, members, true, is_on);
+    if (first.equations.count == 0) return std::nullopt;
     plane_adjustment<Cloud> principal = first.principal();
     principal.add_all(cloud, members, true, is_on);
+    if (!principal.is_determined()) return std::nullopt;
     return principal;
 }
 
@@ -15059,13 +15066,14 @@ template <class Cloud>
     if (on_plane != members.end() && dot(plane.normal, cloud.ray(*on_plane)) > 0.0)
         plane = {scaled(-1.0, plane.normal), -plane.offset};
     const auto about = adjustment_of(cloud, members, region.fit);
-    e.centroid = combined(1.0, cloud.origin, 1.0, about.center);
-    e.axes = from_columns(about.frame.b1, about.frame.b2, plane.normal);
+    if (!about) return e;
+    e.centroid = combined(1.0, cloud.origin, 1.0, about->center);
+    e.axes = from_columns(about->frame.b1, about->frame.b2, plane.normal);
     e.plane = {plane.normal, dot(plane.normal, e.centroid)};
     e.chi2 = region.fit.chi2;
     e.is_flat =
         region.explains(count_of(cloud, members)) && has_few_off(exact, members, region.fit);
-    e.covariance = covariance_of_turns(about, std::max(e.chi2, 1.0));
+    e.covariance = covariance_of_turns(*about, std::max(e.chi2, 1.0));
     return e;
 }
 
@@ -15979,7 +15987,7 @@ class strips {
 /// Calls each(strips) for the two principal axes of a region in its plane: `count` strips of its
 /// members across the axis, over all of their extent. O(n). (A template, so that only its users
 /// compile it.)
-/// @param members  of the region, all finite; some
+/// @param members  of the region, all finite, at least one
 template <std::size_t count, class Cloud>
 void for_each_axis(const Cloud& cloud, std::span<const point_index> members,
                    const planar_region& whole, auto&& each) {
@@ -16055,26 +16063,30 @@ template <class Cloud>
     const std::size_t cut = both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
     if (cut == 0 || both.is_curved(cut)) return std::nullopt;
-    // Free planes of both sides hardly determine where they end, but where they meet: the border is
-    // there if they still do after they are cut there. Else there is a step between them, too.
+    // The line in which the planes of both sides meet is more precise than the best cut. The border
+    // is there if that is stable: cut there and fit again, they meet there again. Else there is a
+    // step between them, too.
     const plane border = both.cut_before(cut);
     const auto cut_at = [&](const plane& at) {
         return parts_at(at, cloud, members[first], members[second]);
     };
-    const auto free = cut_at(border);
-    const auto once = middle_of(free[0], free[1]);
-    if (!once) return border;
-    const auto parts = cut_at(*once);
-    const auto twice = middle_of(parts[0], parts[1]);
-    if (!twice) return border;
-    const auto again = cut_at(*twice);
-    if (!are_at_crease(again[0], again[1]) ||
-        std::min(again[0].sums.summands, again[1].sums.summands) < min_points)
+    plane at = border;
+    std::array<planar_region, 2> parts = cut_at(at);
+    std::size_t before = 0;  // points of the first part
+    for (int pass = 0; pass < 2; ++pass) {
+        const auto meeting = middle_of(parts[0], parts[1]);
+        if (!meeting) return border;
+        at = *meeting;
+        before = parts[0].sums.count;
+        parts = cut_at(at);
+    }
+    if (!are_at_crease(parts[0], parts[1]) ||
+        std::min(parts[0].sums.summands, parts[1].sums.summands) < min_points)
         return border;
-    const auto [fewer, more] = std::minmax(parts[0].sums.count, again[0].sums.count);
-    constexpr std::size_t part = 10;  // numerical: as in region_edges
-    const bool rests = part * (more - fewer) <= std::min(again[0].sums.count, again[1].sums.count);
-    return rests ? twice : border;
+    const auto [fewer, more] = std::minmax(before, parts[0].sums.count);
+    const bool is_stable =
+        part_on_wrong_side * (more - fewer) <= std::min(parts[0].sums.count, parts[1].sums.count);
+    return is_stable ? at : border;
 }
 
 }  // namespace gnomon::detail
@@ -16280,8 +16292,8 @@ class common_paraboloid {
     common_paraboloid(const Patch& a, const Patch& b)
         : patches_{&a, &b}, base_(plane_of_both(a, b)) {
         for (const Patch* patch : patches_)
-            for (const surface_part& part : patch->parts) parts_.push_back(&part);
-        for (const surface_part* part : parts_) weights_.push_back(part->weight);
+            for (const Part& part : patch->parts) parts_.push_back(&part);
+        for (const Part* part : parts_) weights_.push_back(part->weight);
     }
 
     /// Whether a plane of both is known, and those of the patches are nearly parallel to it.
@@ -16296,7 +16308,7 @@ class common_paraboloid {
     [[nodiscard]] bool is_better() const {
         const scratch<double> heights = heights_over(weights_);
         double of_planes = 0.0;
-        for (const surface_part* part : parts_)
+        for (const Part* part : parts_)
             of_planes += part->weight * part->off_plane * part->off_plane;
         return of_planes > weighted_product(weights_, heights, heights);
     }
@@ -16332,7 +16344,7 @@ class common_paraboloid {
             std::array<double, 2> worse{};
             bool rests = true;
             for (std::size_t p = 0; p < parts_.size(); ++p) {
-                const surface_part& part = *parts_[p];
+                const Part& part = *parts_[p];
                 const std::size_t side = side_of(p);
                 const bool is_on = std::abs(heights[p]) <= part.reach;
                 rests = rests && is_on == (weights[p] > 0.0);
@@ -16365,7 +16377,7 @@ class common_paraboloid {
         const Eigen::Vector3d across = cross(base_.plane.normal, along);
         std::array<scratch<double>, 6> terms;  // formula: 1, x, y, x^2, x y, y^2
         scratch<double> heights;
-        for (const surface_part* part : parts_) {
+        for (const Part* part : parts_) {
             const Eigen::Vector3d offset = difference(part->mean, base_.centroid);
             const double x = dot(along, offset), y = dot(across, offset);
             const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};
@@ -16397,7 +16409,7 @@ namespace gnomon::detail {
 template <class Cloud, class Sums = plane_sums>
 class plane_squares {
   public:
-    /// @param members  of the region, all finite; some
+    /// @param members  of the region, all finite, at least one
     /// @param each     mean number of them in a square, if they are everywhere
     plane_squares(const Cloud& cloud, std::span<const point_index> members,
                   const planar_region& whole, double each)
@@ -16417,7 +16429,7 @@ class plane_squares {
             extent[a] = high - low[a];
         }
         const auto points = static_cast<double>(members.size());
-        // At most as many along an axis as there are points, however narrow the region is.
+        // Along an axis hardly more than there are points, however narrow the region is.
         const double width = std::max(std::sqrt(extent[0] * extent[1] * each / points),
                                       std::max(extent[0], extent[1]) / points);
         if (!(width > 0.0)) return;
@@ -16470,13 +16482,14 @@ class plane_squares {
 /// @file
 /// The steps within a region: patches that are a little higher or lower than the rest of it, as the
 /// wheels at the side of a car, or the next front of a row. By a standard deviation or two they
-/// are within the noise of a common plane, and grow into one region; but the means of a dozen
-/// points show them. The plane of the rest is that of the squares that are nearest to it (least
+/// are within the noise of a common plane, and grow into one region; but the means over squares of
+/// 16 points show them. The plane of the rest is that of the squares that are nearest to it (least
 /// trimmed squares, Rousseeuw 1984), as that of all is tilted by a patch.
 
 namespace gnomon::detail {
 
-/// The search for the steps within one region. (Of numbers for compile time only.)
+/// The search for the steps within one region. (Number is a parameter so that only its users
+/// compile a sort.)
 template <class Cloud, class Number = double>
 class step_search {
   public:
@@ -16593,7 +16606,7 @@ class step_search {
     }
 
     /// The patch that a square is of: those connected with it that are on the same side of the
-    /// plane and farther from it than half of their mean.
+    /// plane and farther from it than half of the mean height of those found so far.
     /// @param height  becomes that mean, without its sign [m]
     [[nodiscard]] scratch<std::size_t> patch_around(std::size_t seed, scratch<char>& is_visited,
                                                     double& height) const {
@@ -17341,7 +17354,8 @@ struct observation_count {
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
 /// a gap must be, but for lines on which mostly the surface itself was seen; narrow gaps are closed
 /// without evidence (merge_occluded_options::max_gap), and one line on which free space was
-/// observed keeps any gap open, unless the policy merges even there.
+/// observed, by more than a few of its rays, keeps any gap open, unless the policy merges even
+/// there.
 template <class M>
 concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
@@ -17384,7 +17398,7 @@ template <merge_policy M>
 
 /// Whether a line alone keeps a gap open: free space was observed on it, and the surface itself not
 /// twice as often, or more. There, as on a road, rays that graze the surface seem to see beyond it.
-/// So do a few of hundreds at the rim of what hides the surface, if the view point is not exact.
+/// So do a few of hundreds at the rim of an occluder, if the view point is not exact.
 template <merge_policy M>
 [[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
     constexpr std::size_t most = 50;  // to one that is free; chosen on streets 20,001 to 21,700

@@ -73,7 +73,7 @@ TEST(merge_policies, weigh_the_places_of_a_line) {
 /// One position in free space keeps a gap open if the policy does not merge across free space,
 /// unless it is one of more than fifty, or of a surface that is grazed.
 TEST(merge_policies, keep_a_gap_open_that_is_seen_through_at_one_place) {
-    // Unseen, closer, level, farther.
+    // Unobserved, occluded, on surface, free space.
     for (const observation_count& seen :
          {observation_count{{0, 9, 0, 1}}, observation_count{{0, 8, 1, 1}},
           observation_count{{0, 90, 3, 2}}}) {

@@ -319,6 +319,34 @@ TEST(plane_estimate, of_too_few_points_has_no_normal) {
     }
 }
 
+/// The planes of the parts of a sphere have hardly a point on them, if no noise is given.
+TEST(plane_estimate, is_finite_or_has_no_normal) {
+    std::size_t with_normal = 0;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        gnomon::random_stream random(seed);
+        clouds::cloud points;
+        std::vector<std::int32_t> labels;
+        for (int i = 0; i < 2500; ++i) {
+            const Eigen::Vector3d p(random.gaussian(), random.gaussian(), random.gaussian());
+            points.push_back(5.0 * p.normalized());
+            labels.push_back(static_cast<std::int32_t>(std::floor(points.back().z())) + 5);
+        }
+        for (const double noise : {0.0, 1e-9, 1e-3}) {
+            const auto planes =
+                gnomon::estimate_planes(gnomon::with_viewpoint(points, {0.0, 0.0, 0.0}),
+                                        segments(labels), gnomon::constant_noise{noise});
+            for (const plane_estimate& e : planes) {
+                EXPECT_TRUE(e.covariance.allFinite()) << seed << ", " << noise;
+                EXPECT_TRUE(e.centroid.allFinite() && e.plane.normal.allFinite() &&
+                            std::isfinite(e.plane.offset))
+                    << seed << ", " << noise;
+                with_normal += e.plane.normal.isZero() ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_GT(with_normal, 0u);
+}
+
 TEST(plane_estimate, passes_over_points_that_are_not_finite) {
     const patch p;
     const auto points = p.points(6);

@@ -45,7 +45,8 @@ struct observation_count {
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
 /// a gap must be, but for lines on which mostly the surface itself was seen; narrow gaps are closed
 /// without evidence (merge_occluded_options::max_gap), and one line on which free space was
-/// observed keeps any gap open, unless the policy merges even there.
+/// observed, by more than a few of its rays, keeps any gap open, unless the policy merges even
+/// there.
 template <class M>
 concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
@@ -88,7 +89,7 @@ template <merge_policy M>
 
 /// Whether a line alone keeps a gap open: free space was observed on it, and the surface itself not
 /// twice as often, or more. There, as on a road, rays that graze the surface seem to see beyond it.
-/// So do a few of hundreds at the rim of what hides the surface, if the view point is not exact.
+/// So do a few of hundreds at the rim of an occluder, if the view point is not exact.
 template <merge_policy M>
 [[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
     constexpr std::size_t most = 50;  // to one that is free; chosen on streets 20,001 to 21,700

@@ -128,7 +128,7 @@ class cast_votes {
     }
 
     /// std::remainder(x, full turn): headings rarely differ by more than one and a half turns, and
-    /// below that one subtraction, which is exact, gives the same bits.
+    /// below that one subtraction, which is exact, gives the same value.
     [[nodiscard]] static double shortest_turn(double x) {
         constexpr double half = std::numbers::pi, full = 2.0 * half;
         if (std::abs(x) <= half) return x;

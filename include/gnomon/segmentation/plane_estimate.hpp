@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -76,19 +77,21 @@ template <class Cloud>
     return count;
 }
 
-/// The normal equations of a plane about the mean of the points on it, along their principal axes.
+/// The normal equations of a plane about the mean of the points on it, along their principal axes;
+/// nothing if these points do not determine a plane, as where most are off it and few on one line.
 template <class Cloud>
-[[nodiscard]] plane_adjustment<Cloud> adjustment_of(const Cloud& cloud,
-                                                    std::span<const point_index> members,
-                                                    const region_plane& of) {
+[[nodiscard]] std::optional<plane_adjustment<Cloud>> adjustment_of(
+    const Cloud& cloud, std::span<const point_index> members, const region_plane& of) {
     const auto is_on = [&](point_index i) { return cloud.is_on(i, of); };
     const gnomon::plane& p = of.plane;
     plane_adjustment<Cloud> first(
         tangent_basis(p.normal),
         combined(1.0, of.centroid, -p.signed_distance(of.centroid), p.normal));
     first.add_all(cloud, members, true, is_on);
+    if (first.equations.count == 0) return std::nullopt;
     plane_adjustment<Cloud> principal = first.principal();
     principal.add_all(cloud, members, true, is_on);
+    if (!principal.is_determined()) return std::nullopt;
     return principal;
 }
 
@@ -131,13 +134,14 @@ template <class Cloud>
     if (on_plane != members.end() && dot(plane.normal, cloud.ray(*on_plane)) > 0.0)
         plane = {scaled(-1.0, plane.normal), -plane.offset};
     const auto about = adjustment_of(cloud, members, region.fit);
-    e.centroid = combined(1.0, cloud.origin, 1.0, about.center);
-    e.axes = from_columns(about.frame.b1, about.frame.b2, plane.normal);
+    if (!about) return e;
+    e.centroid = combined(1.0, cloud.origin, 1.0, about->center);
+    e.axes = from_columns(about->frame.b1, about->frame.b2, plane.normal);
     e.plane = {plane.normal, dot(plane.normal, e.centroid)};
     e.chi2 = region.fit.chi2;
     e.is_flat =
         region.explains(count_of(cloud, members)) && has_few_off(exact, members, region.fit);
-    e.covariance = covariance_of_turns(about, std::max(e.chi2, 1.0));
+    e.covariance = covariance_of_turns(*about, std::max(e.chi2, 1.0));
     return e;
 }
 

@@ -28,8 +28,8 @@ class common_paraboloid {
     common_paraboloid(const Patch& a, const Patch& b)
         : patches_{&a, &b}, base_(plane_of_both(a, b)) {
         for (const Patch* patch : patches_)
-            for (const surface_part& part : patch->parts) parts_.push_back(&part);
-        for (const surface_part* part : parts_) weights_.push_back(part->weight);
+            for (const Part& part : patch->parts) parts_.push_back(&part);
+        for (const Part* part : parts_) weights_.push_back(part->weight);
     }
 
     /// Whether a plane of both is known, and those of the patches are nearly parallel to it.
@@ -44,7 +44,7 @@ class common_paraboloid {
     [[nodiscard]] bool is_better() const {
         const scratch<double> heights = heights_over(weights_);
         double of_planes = 0.0;
-        for (const surface_part* part : parts_)
+        for (const Part* part : parts_)
             of_planes += part->weight * part->off_plane * part->off_plane;
         return of_planes > weighted_product(weights_, heights, heights);
     }
@@ -80,7 +80,7 @@ class common_paraboloid {
             std::array<double, 2> worse{};
             bool rests = true;
             for (std::size_t p = 0; p < parts_.size(); ++p) {
-                const surface_part& part = *parts_[p];
+                const Part& part = *parts_[p];
                 const std::size_t side = side_of(p);
                 const bool is_on = std::abs(heights[p]) <= part.reach;
                 rests = rests && is_on == (weights[p] > 0.0);
@@ -113,7 +113,7 @@ class common_paraboloid {
         const Eigen::Vector3d across = cross(base_.plane.normal, along);
         std::array<scratch<double>, 6> terms;  // formula: 1, x, y, x^2, x y, y^2
         scratch<double> heights;
-        for (const surface_part* part : parts_) {
+        for (const Part* part : parts_) {
             const Eigen::Vector3d offset = difference(part->mean, base_.centroid);
             const double x = dot(along, offset), y = dot(across, offset);
             const std::array<double, 6> at{1.0, x, y, x * x, x * y, y * y};

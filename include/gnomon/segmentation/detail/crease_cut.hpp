@@ -74,26 +74,30 @@ template <class Cloud>
     const std::size_t cut = both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, least);
     if (cut == 0 || both.is_curved(cut)) return std::nullopt;
-    // Free planes of both sides hardly determine where they end, but where they meet: the border is
-    // there if they still do after they are cut there. Else there is a step between them, too.
+    // The line in which the planes of both sides meet is more precise than the best cut. The border
+    // is there if that is stable: cut there and fit again, they meet there again. Else there is a
+    // step between them, too.
     const plane border = both.cut_before(cut);
     const auto cut_at = [&](const plane& at) {
         return parts_at(at, cloud, members[first], members[second]);
     };
-    const auto free = cut_at(border);
-    const auto once = middle_of(free[0], free[1]);
-    if (!once) return border;
-    const auto parts = cut_at(*once);
-    const auto twice = middle_of(parts[0], parts[1]);
-    if (!twice) return border;
-    const auto again = cut_at(*twice);
-    if (!are_at_crease(again[0], again[1]) ||
-        std::min(again[0].sums.summands, again[1].sums.summands) < min_points)
+    plane at = border;
+    std::array<planar_region, 2> parts = cut_at(at);
+    std::size_t before = 0;  // points of the first part
+    for (int pass = 0; pass < 2; ++pass) {
+        const auto meeting = middle_of(parts[0], parts[1]);
+        if (!meeting) return border;
+        at = *meeting;
+        before = parts[0].sums.count;
+        parts = cut_at(at);
+    }
+    if (!are_at_crease(parts[0], parts[1]) ||
+        std::min(parts[0].sums.summands, parts[1].sums.summands) < min_points)
         return border;
-    const auto [fewer, more] = std::minmax(parts[0].sums.count, again[0].sums.count);
-    constexpr std::size_t part = 10;  // numerical: as in region_edges
-    const bool rests = part * (more - fewer) <= std::min(again[0].sums.count, again[1].sums.count);
-    return rests ? twice : border;
+    const auto [fewer, more] = std::minmax(before, parts[0].sums.count);
+    const bool is_stable =
+        part_on_wrong_side * (more - fewer) <= std::min(parts[0].sums.count, parts[1].sums.count);
+    return is_stable ? at : border;
 }
 
 }  // namespace gnomon::detail

@@ -53,15 +53,13 @@ class label_competition {
     /// @param misfit     misfit(label): the square of the deviation of the point, in variances of
     ///                   its region; negative if it is impossible
     /// @param is_across  is_across(label, other): whether both meet at an edge, and the point is on
-    ///                   the side of the other one; counts as if no neighbor had the label
+    ///                   the side of the other one; then the cost grows by as much as if all
+    ///                   neighbors had another label
     [[nodiscard]] std::int32_t winner(auto&& misfit, auto&& is_across) {
-        constexpr double half =
-            0.5;  // formula: of a squared deviation, the logarithm of its density
+        constexpr double half = 0.5;   // formula: the logarithm of a normal density
         constexpr double potts = 2.0;  // per share of neighbors with another label; chosen
-        std::erase_if(candidates_, [&](candidate& c) {
-            c.squared = misfit(c.label);
-            return c.squared < 0.0;
-        });
+        for (candidate& c : candidates_) c.squared = misfit(c.label);
+        std::erase_if(candidates_, [](const candidate& c) { return c.squared < 0.0; });
         std::pair best(std::numeric_limits<double>::infinity(), unlabeled);
         for (const candidate& c : candidates_) {
             const bool is_beyond = std::ranges::any_of(candidates_, [&](const candidate& other) {
@@ -124,8 +122,8 @@ template <neighborhood_graph G, execution X>
     return is_border;
 }
 
-/// The pairs of regions that have neighboring points, or one between them that is unlabeled,
-/// sorted. O(n k) for k neighbors.
+/// The pairs of regions that have neighboring points, sorted; around an unlabeled point, those of
+/// its first labeled neighbor with each of the others. O(n k) for k neighbors.
 /// @param is_border  of each point that has a neighbor with another label
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<region_pair> touching_regions(const G& graph, const auto& labels,

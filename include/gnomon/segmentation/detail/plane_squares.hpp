@@ -23,7 +23,7 @@ namespace gnomon::detail {
 template <class Cloud, class Sums = plane_sums>
 class plane_squares {
   public:
-    /// @param members  of the region, all finite; some
+    /// @param members  of the region, all finite, at least one
     /// @param each     mean number of them in a square, if they are everywhere
     plane_squares(const Cloud& cloud, std::span<const point_index> members,
                   const planar_region& whole, double each)
@@ -43,7 +43,7 @@ class plane_squares {
             extent[a] = high - low[a];
         }
         const auto points = static_cast<double>(members.size());
-        // At most as many along an axis as there are points, however narrow the region is.
+        // Along an axis hardly more than there are points, however narrow the region is.
         const double width = std::max(std::sqrt(extent[0] * extent[1] * each / points),
                                       std::max(extent[0], extent[1]) / points);
         if (!(width > 0.0)) return;

@@ -69,7 +69,12 @@ struct plane_adjustment {
         }
     }
 
-    /// The covariance of the parameters.
+    /// Whether the points determine all parameters, up to rounding.
+    [[nodiscard]] bool is_determined() const {
+        return scaled_equations<plane_parameters>(equations).is_regular();
+    }
+
+    /// The covariance of the parameters. Precondition: is_determined().
     [[nodiscard]] auto covariance() const {
         return scaled_equations<plane_parameters>(equations).covariance();
     }

@@ -24,7 +24,7 @@
 namespace gnomon::detail {
 
 /// The plane through the line in which the planes of two regions meet that halves the larger of
-/// their angles.
+/// their angles, which is that between the regions if these turn by less than 90 degrees.
 /// @return the plane, the first region on its negative side; nothing if their centroids are on the
 ///         same side
 [[nodiscard]] std::optional<plane> middle_of(const auto& a, const auto& b) {
@@ -36,26 +36,30 @@ namespace gnomon::detail {
     if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
     const plane middle{scaled(scale, between),
                        scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
-    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
-        middle.signed_distance(b.fit.centroid) <= 0.0)
+    if (!(middle.signed_distance(a.fit.centroid) < 0.0 &&
+          middle.signed_distance(b.fit.centroid) > 0.0))
         return std::nullopt;
     return middle;
 }
+
+/// A tenth of a region may be on the wrong side of its edge.
+inline constexpr std::size_t part_on_wrong_side = 10;  // numerical
 
 /// The edge between two regions. (A template, so that only its users compile it.)
 template <class Plane = plane>
 class region_edge {
   public:
-    /// @param ray  from the view point to a point of either region
-    region_edge(const region_pair& pair, const auto& a, const auto& b, const Eigen::Vector3d& ray)
+    /// @param viewpoint  of a point of either region, from the origin of the cloud [m]
+    region_edge(const region_pair& pair, const auto& a, const auto& b,
+                const Eigen::Vector3d& viewpoint)
         : regions(pair), first_(a.fit.plane), second_(b.fit.plane) {
-        const bool is_before_a = is_before(first_, b.fit.centroid, ray);
-        is_seen = is_before_a == is_before(second_, a.fit.centroid, ray);
+        const bool is_before_a = is_before(first_, b.fit.centroid, viewpoint);
+        is_seen = is_before_a == is_before(second_, a.fit.centroid, viewpoint);
         is_corner_ = is_before_a;
     }
 
     region_pair regions;
-    bool is_seen;  ///< both sides of it, by the ray: else one of them occludes the other
+    bool is_seen;  ///< both sides of it, from the view point: else one of them occludes the other
 
     /// -1 if a ray ends on the first plane, 1 if on the second one, 0 if it does not meet both.
     /// @param at   the point, from the origin of the cloud [m]
@@ -69,10 +73,10 @@ class region_edge {
     }
 
   private:
-    /// Whether a place is on that side of a plane from which rays come.
+    /// Whether a place is on that side of a plane on which the view point is.
     [[nodiscard]] static bool is_before(const Plane& p, const Eigen::Vector3d& place,
-                                        const Eigen::Vector3d& ray) {
-        return p.signed_distance(place) * dot(p.normal, ray) < 0.0;
+                                        const Eigen::Vector3d& viewpoint) {
+        return p.signed_distance(place) * p.signed_distance(viewpoint) > 0.0;
     }
 
     Plane first_, second_;
@@ -93,18 +97,17 @@ class region_edges {
         const label_groups members(labels);
         for (const region_pair& pair : touching) {
             const auto &a = regions[pair.first], &b = regions[pair.second];
-            if (!are_at_crease(a, b) || !middle_of(a, b)) continue;
-            const Edge edge(pair, a, b, cloud.ray(members[pair.first].front()));
+            if (!are_at_crease(a, b)) continue;
+            const point_index any = members[pair.first].front();
+            const Edge edge(pair, a, b, difference(cloud.offsets[any], cloud.ray(any)));
             if (!edge.is_seen) continue;
             if (are_turned(a, b, widest_crease) || separates(edge, cloud, members))
                 edges_.push_back(edge);
         }
     }
 
-    /// Whether a point of one of two regions is, by its ray, of the other. (A template, so that
-    /// only its users compile it.)
-    template <class Label>
-    [[nodiscard]] bool is_across(Label own, Label other, const Eigen::Vector3d& at,
+    /// Whether a point of one of two regions is, by its ray, of the other.
+    [[nodiscard]] bool is_across(std::int32_t own, std::int32_t other, const Eigen::Vector3d& at,
                                  const Eigen::Vector3d& ray) const {
         const region_pair pair =
             std::minmax(static_cast<point_index>(own), static_cast<point_index>(other));
@@ -118,14 +121,13 @@ class region_edges {
     /// region are on the wrong side. Two planes with a step between them meet elsewhere.
     [[nodiscard]] static bool separates(const Edge& edge, const auto& cloud,
                                         const label_groups& members) {
-        constexpr std::size_t part = 10;  // numerical
         const auto &first = members[edge.regions.first], &second = members[edge.regions.second];
         const auto wrong = [&](const auto& points, int side) {
             return std::ranges::count_if(points, [&](point_index i) {
                 return edge.side_of(cloud.offsets[i], cloud.ray(i)) == side;
             });
         };
-        return part * static_cast<std::size_t>(wrong(first, 1) + wrong(second, -1)) <=
+        return part_on_wrong_side * static_cast<std::size_t>(wrong(first, 1) + wrong(second, -1)) <=
                std::min(first.size(), second.size());
     }
 

@@ -2,8 +2,8 @@
 /// @file
 /// The steps within a region: patches that are a little higher or lower than the rest of it, as the
 /// wheels at the side of a car, or the next front of a row. By a standard deviation or two they
-/// are within the noise of a common plane, and grow into one region; but the means of a dozen
-/// points show them. The plane of the rest is that of the squares that are nearest to it (least
+/// are within the noise of a common plane, and grow into one region; but the means over squares of
+/// 16 points show them. The plane of the rest is that of the squares that are nearest to it (least
 /// trimmed squares, Rousseeuw 1984), as that of all is tilted by a patch.
 #pragma once
 
@@ -25,7 +25,8 @@
 
 namespace gnomon::detail {
 
-/// The search for the steps within one region. (Of numbers for compile time only.)
+/// The search for the steps within one region. (Number is a parameter so that only its users
+/// compile a sort.)
 template <class Cloud, class Number = double>
 class step_search {
   public:
@@ -142,7 +143,7 @@ class step_search {
     }
 
     /// The patch that a square is of: those connected with it that are on the same side of the
-    /// plane and farther from it than half of their mean.
+    /// plane and farther from it than half of the mean height of those found so far.
     /// @param height  becomes that mean, without its sign [m]
     [[nodiscard]] scratch<std::size_t> patch_around(std::size_t seed, scratch<char>& is_visited,
                                                     double& height) const {

@@ -100,7 +100,7 @@ class strips {
 /// Calls each(strips) for the two principal axes of a region in its plane: `count` strips of its
 /// members across the axis, over all of their extent. O(n). (A template, so that only its users
 /// compile it.)
-/// @param members  of the region, all finite; some
+/// @param members  of the region, all finite, at least one
 template <std::size_t count, class Cloud>
 void for_each_axis(const Cloud& cloud, std::span<const point_index> members,
                    const planar_region& whole, auto&& each) {
