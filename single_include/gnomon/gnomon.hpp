@@ -16783,7 +16783,8 @@ class plane_regions {
         return sides;
     }
 
-    /// Cuts regions where several planes explain them better, and settles them.
+    /// Cuts regions where several planes explain them better, and settles them. (Label is a
+    /// parameter so that only its users compile arrays of arrays.)
     /// @param cut_of  cut_of(members, region): the numbers of the parts that they are of, or none;
     ///                all but 0 become regions of their own
     /// @return whether a region was cut
@@ -17668,7 +17669,7 @@ struct view_limits {
     }
 
     image_axes axes_;
-    std::array<limits, 512> sectors_;  // numerical: limits hardly differ within three of them
+    std::array<limits, 512> sectors_;  // numerical: limits hardly differ within two degrees
     limits all_;
 };
 

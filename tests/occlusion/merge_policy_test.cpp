@@ -71,7 +71,7 @@ TEST(merge_policies, weigh_the_places_of_a_line) {
 }
 
 /// One position in free space keeps a gap open if the policy does not merge across free space,
-/// unless it is one of more than fifty, or of a surface that is grazed.
+/// unless it is one of fifty or more, or of a surface that is grazed.
 TEST(merge_policies, keep_a_gap_open_that_is_seen_through_at_one_place) {
     // Unobserved, occluded, on surface, free space.
     for (const observation_count& seen :
@@ -83,7 +83,7 @@ TEST(merge_policies, keep_a_gap_open_that_is_seen_through_at_one_place) {
     for (const observation_count& seen :
          {observation_count{{0, 9, 0, 0}}, observation_count{{9, 0, 9, 0}},
           observation_count{{47, 0, 26, 1}}, observation_count{{9, 9, 4, 2}},
-          observation_count{{2, 332, 3, 3, 0}}}) {
+          observation_count{{0, 98, 3, 2}}, observation_count{{2, 332, 3, 3}}}) {
         EXPECT_FALSE(keeps_open(conservative{}, seen));
         EXPECT_FALSE(keeps_open(liberal{}, seen));
     }

@@ -74,7 +74,7 @@ struct view_limits {
     }
 
     image_axes axes_;
-    std::array<limits, 512> sectors_;  // numerical: limits hardly differ within three of them
+    std::array<limits, 512> sectors_;  // numerical: limits hardly differ within two degrees
     limits all_;
 };
 

@@ -120,7 +120,8 @@ class plane_regions {
         return sides;
     }
 
-    /// Cuts regions where several planes explain them better, and settles them.
+    /// Cuts regions where several planes explain them better, and settles them. (Label is a
+    /// parameter so that only its users compile arrays of arrays.)
     /// @param cut_of  cut_of(members, region): the numbers of the parts that they are of, or none;
     ///                all but 0 become regions of their own
     /// @return whether a region was cut
