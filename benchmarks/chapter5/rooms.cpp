@@ -66,13 +66,17 @@ struct method_row {
     }
 };
 
-/// A share of each seed: the median, and the worst.
+/// A value of each seed: the median, and the worst.
+void add_values(json& row, const std::string& name, const std::vector<double>& values,
+                double worst) {
+    row[name] = rounded(median_of(values), 3);
+    row[name + ", worst"] = rounded(worst, 3);
+}
 void add_share(json& row, const char* name, const std::vector<judgement>& seeds,
                double (judgement::*share)() const) {
     std::vector<double> values;
     for (const judgement& j : seeds) values.push_back((j.*share)());
-    row[name] = rounded(median_of(values), 3);
-    row[std::string(name) + ", worst"] = rounded(std::ranges::min(values), 3);
+    add_values(row, name, values, std::ranges::min(values));
 }
 void add_shares(json& row, const std::vector<judgement>& seeds) {
     add_share(row, "accuracy", seeds, &judgement::accuracy);
@@ -101,19 +105,17 @@ json row_of(const method_row& row) {
     result["views"] = all.views;
     if (!all.poses.empty()) {
         result["poses"] = all.poses.size();
-        result["within 2 cm and 2 deg"] =
-            rounded(static_cast<double>(std::ranges::count_if(all.poses, &pose_error::is_small)) /
-                        static_cast<double>(all.poses.size()),
-                    3);
-        // Of those that are right: no covariance covers a place on the next slat.
-        std::vector<double> nees;
-        for (const pose_error& e : all.poses)
-            if (e.is_small() && e.nees) nees.push_back(*e.nees);
+        add_share(result, "within 2 cm and 2 deg", row.seeds, &judgement::share_of_right_poses);
+        std::vector<double> means;  // of the seeds
+        for (const judgement& j : row.seeds)
+            if (const auto nees = j.nees(); !nees.empty())
+                means.push_back(std::accumulate(nees.begin(), nees.end(), 0.0) /
+                                static_cast<double>(nees.size()));
+        const auto nees = all.nees();
         result["of these determined"] = nees.size();
         if (!nees.empty()) {
-            const double sum = std::accumulate(nees.begin(), nees.end(), 0.0);
-            result["NEES / dof"] = rounded(sum / static_cast<double>(nees.size()), 1);
-            result["NEES / dof, median"] = rounded(median_of(nees), 1);
+            add_values(result, "NEES / dof", means, std::ranges::max(means));
+            result["NEES / dof, median"] = rounded(median_of(nees), 2);
         }
     }
     result["s per room"] = rounded(median_of(row.times), 2);

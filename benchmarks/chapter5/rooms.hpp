@@ -131,6 +131,18 @@ struct judgement {
     [[nodiscard]] double precision() const { return share(right, decided); }
     [[nodiscard]] double accuracy() const { return share(right_views, views); }
     [[nodiscard]] double wholeness() const { return share(whole, objects); }
+    [[nodiscard]] double share_of_right_poses() const {
+        return share(static_cast<std::size_t>(std::ranges::count_if(poses, &pose_error::is_small)),
+                     poses.size());
+    }
+    /// Of the poses that are right and that points determine: no covariance covers a place on the
+    /// next slat.
+    [[nodiscard]] std::vector<double> nees() const {
+        std::vector<double> of_poses;
+        for (const pose_error& e : poses)
+            if (e.is_small() && e.nees) of_poses.push_back(*e.nees);
+        return of_poses;
+    }
 
   private:
     /// 1 of none.

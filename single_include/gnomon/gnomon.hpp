@@ -3576,17 +3576,24 @@ struct tree_question {
     const place_set* among = nullptr;  // only these points are found; all, if there is no set
 };
 
+/// Every point may be a neighbor.
+struct any_point {
+    [[nodiscard]] constexpr bool operator()(point_index) const { return true; }
+};
+
 /// One search. Keeps the best candidates in `found`, which finish() puts into canonical order.
-template <class Metric, class Found>
+/// @tparam Accepts  (i): whether point i may be a neighbor; tested where it is near enough
+template <class Metric, class Found, class Accepts = any_point>
 class tree_query {
   public:
     tree_query(const leaf_tree& tree, const Eigen::Vector3d& p, const tree_question& question,
-               const Metric& metric, Found& found)
+               const Metric& metric, Found& found, const Accepts& accepts = {})
         : tree_(tree),
           at_{p[0], p[1], p[2]},
           question_(question),
           metric_(metric),
           found_(found),
+          accepts_(accepts),
           most_(question.ties == tie_rule::all && question.k <= tree.size() ? 2 * question.k
                                                                             : question.k),
           // Candidates are collected up to this number, then the farthest are dropped in linear
@@ -3686,12 +3693,12 @@ class tree_query {
             if (i == question_.except) continue;
             if (question_.among != nullptr && !question_.among->contains(begin + l)) continue;
             const neighbor q{squared[l], i};
-            if (most_ > few || found_.size() < most_)
+            const bool has_room = most_ > few || found_.size() < most_;
+            if ((!has_room && !(q < found_.back())) || !accepts_(i)) continue;
+            if (has_room)
                 found_.push_back(q);
-            else if (q < found_.back())
-                found_.back() = q;
             else
-                continue;
+                found_.back() = q;
             if (most_ <= few) put_last_in_order();
         }
         if (found_.size() >= (most_ > few ? full_ : most_)) drop_farthest();
@@ -3741,6 +3748,7 @@ class tree_query {
     const tree_question& question_;
     const Metric& metric_;
     Found& found_;
+    Accepts accepts_;
     std::size_t most_, full_;
     double shrink_;
     double limit_;    // squared; candidates farther than that are not wanted [m^2]
@@ -3751,10 +3759,11 @@ class tree_query {
 
 /// Replaces the content of `found` by the answer, in canonical order. O(log n + k log k) on average
 /// for the k that are found. Precondition: p is finite.
-template <class Metric = canonical_metric, class Allocator>
+template <class Metric = canonical_metric, class Allocator, class Accepts = any_point>
 void search_tree(const leaf_tree& tree, const Eigen::Vector3d& p, const tree_question& question,
-                 std::vector<neighbor, Allocator>& found, const Metric& metric = {}) {
-    tree_query(tree, p, question, metric, found)();
+                 std::vector<neighbor, Allocator>& found, const Metric& metric = {},
+                 const Accepts& accepts = {}) {
+    tree_query(tree, p, question, metric, found, accepts)();
 }
 
 /// The same in no order.
@@ -27250,38 +27259,24 @@ class matched_surface {
         return std::min(match.distance, limit) + moved <= list.reach;
     }
 
-    /// Searches for the samples near x.
+    /// Searches for the compatible samples that are nearest to x.
     void search(sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
                 const Eigen::Vector3d& own, double limit, std::vector<neighbor>& found) const {
-        // Of a thin board the nearest samples may all be on the other side. (Performance only, but
-        // for boards of less than a fifth of the distance of a point.)
-        constexpr std::size_t first = 12, most = 64;
-        list.searched = x;
         const double radius = slack * limit;
-        const auto is_left_out = [&](const neighbor& q) {
-            const Eigen::Vector3d n = normals_[q.index].normal;
-            return !is_unit(n) || !is_compatible(n, ray, own);
+        const auto is_wanted = [&](point_index q) {
+            const Eigen::Vector3d n = normals_[q].normal;
+            return is_unit(n) && is_compatible(n, ray, own);
         };
-        for (const std::size_t k : {first, most}) {
-            search_tree_unsorted(samples_.tree(), x, {.k = k, .squared_radius = radius * radius},
-                                 found);
-            const bool are_all = found.size() < k;
-            list.reach =
-                are_all ? radius
-                        : std::sqrt(std::max_element(found.begin(), found.end())->squared_distance);
-            std::erase_if(found, is_left_out);
-            if (!found.empty() || are_all) break;
-        }
-        std::sort(found.data(), found.data() + found.size());
-        list.count = std::min(found.size(), list.of.size());
+        search_tree(samples_.tree(), x, {.k = list.of.size(), .squared_radius = radius * radius},
+                    found, canonical_metric{}, is_wanted);
+        list.searched = x;
+        list.count = found.size();
+        list.reach = radius;
         for (std::size_t i = 0; i < list.count; ++i) {
             const point_index q = found[i].index;
             list.of[i] = {samples_[q], normals_[q].normal, q};
+            if (i + 1 == list.of.size()) list.reach = std::sqrt(found[i].squared_distance);
         }
-        if (list.count == list.of.size())
-            list.reach = std::sqrt(found[list.count - 1].squared_distance);
-        // Also where nothing is compatible the answer is that of this search.
-        list.reach = std::max(list.reach, list.count == 0 ? limit : 0.0);
     }
 
     [[nodiscard]] static bool is_unit(const Eigen::Vector3d& n) {

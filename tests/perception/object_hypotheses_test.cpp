@@ -148,8 +148,9 @@ TEST(object_hypotheses, settle_where_they_fit_best) {
 TEST(object_hypotheses, settle_by_whole_beams) {
     const chair_in_scene chair(wide);
     const auto settled_for = [&](gnomon::angle divergence) {
-        std::vector<rec::found_object> found(1);
-        found[0].aligned.pose = where_chair_is * rigid_motion::on_ground(0.01, 0.0, degrees(1.0));
+        const auto start = where_chair_is * rigid_motion::on_ground(0.01, 0.0, degrees(1.0));
+        std::vector<rec::found_object> found{chair.scene().aligned(
+            0, start, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
         rec::detail::settle(found, chair.scene(), chair.surfaces(), divergence,
                             gnomon::sequential{});
         return found[0].aligned;

@@ -60,24 +60,26 @@ struct table_behind_post {
         cells = gnomon::average_voxels(gnomon::subset_view(scan, above), {.edge = 0.01});
     }
 
-    [[nodiscard]] std::vector<std::uint8_t> mixed(gnomon::angle divergence, const auto& run) const {
-        return rec::detail::mixed_cells(scan, above, cells, divergence, beam_noise, run,
-                                        std::identity{});
+    [[nodiscard]] rec::detail::mixed_cells mixed(const auto& run) const {
+        return {scan, above, cells, beam_width, beam_noise, run, std::identity{}};
     }
 };
 
 TEST(whole_beams, mixed_cells_are_those_of_points_that_the_filter_removes) {
     const table_behind_post seen;
-    EXPECT_TRUE(seen.mixed(gnomon::degrees(0.0), gnomon::sequential{}).empty());
-    const auto found = seen.mixed(beam_width, gnomon::sequential{});
-    EXPECT_EQ(seen.mixed(beam_width, gnomon::threads{3}), found);
+    const auto is_mixed = seen.mixed(gnomon::sequential{});
+    const auto by_threads = seen.mixed(gnomon::threads{3});
     const auto kept =
         gnomon::remove_mixed_points(seen.scan, {.divergence = beam_width, .noise = beam_noise});
-    std::vector<std::uint8_t> expected(seen.cells.size(), 0);
+    std::vector<bool> expected(seen.cells.size(), false);
     for (std::size_t i = 0; i < seen.above.size(); ++i)
-        if (!std::ranges::binary_search(kept, seen.above[i])) expected[seen.cells.of_point[i]] = 1;
-    EXPECT_EQ(found, expected);
-    EXPECT_GT(std::ranges::count(found, 1), 20);
+        if (!std::ranges::binary_search(kept, seen.above[i]))
+            expected[seen.cells.of_point[i]] = true;
+    for (gnomon::point_index c = 0; c < expected.size(); ++c) {
+        EXPECT_EQ(is_mixed(c), expected[c]);
+        EXPECT_EQ(by_threads(c), expected[c]);
+    }
+    EXPECT_GT(std::ranges::count(expected, true), 20);
 }
 
 TEST(whole_beams, points_of_mixed_cells_are_left_out) {
@@ -87,14 +89,14 @@ TEST(whole_beams, points_of_mixed_cells_are_left_out) {
                                      &sim::surface_sample::position);
     const gnomon::spatial_index index(seen.cells);
     const auto normals = gnomon::estimate_normals(index, gnomon::knn{.k = 15}, gnomon::plane_pca{});
-    const auto at = [&](const std::vector<std::uint8_t>& is_mixed) {
-        return rec::detail::whole_beams_at(seen.cells, index, normals, is_mixed, surface, seen.pose,
+    const auto at = [&](const rec::detail::mixed_cells* mixed) {
+        return rec::detail::whole_beams_at(seen.cells, index, normals, mixed, surface, seen.pose,
                                            beam_width, 0.03);
     };
-    const auto is_mixed = seen.mixed(beam_width, gnomon::sequential{});
-    const auto all = at({}), some = at(is_mixed);
+    const auto is_mixed = seen.mixed(gnomon::sequential{});
+    const auto all = at(nullptr), some = at(&is_mixed);
     std::vector<gnomon::point_index> expected = all.points;
-    EXPECT_GT(std::erase_if(expected, [&](gnomon::point_index c) { return is_mixed[c] != 0; }), 0u);
+    EXPECT_GT(std::erase_if(expected, is_mixed), 0u);
     EXPECT_EQ(some.points, expected);
     EXPECT_FALSE(some.points.empty());
     // The width and the direction are those of all beams at the object.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -44,6 +45,29 @@ TEST(surface_model, keeps_what_was_stored) {
     EXPECT_EQ(m.low(), Eigen::Vector3d(0, 0, 0.5));
     EXPECT_EQ(m.high(), Eigen::Vector3d(1, 0, 1));
     EXPECT_EQ(m.spacing(), 0.1);
+}
+
+/// Each sample is within two spacings of a coarse one of its side, and coarse ones of one side are
+/// farther apart than that.
+TEST(surface_model, has_coarse_samples) {
+    for (const auto& furniture : gnomon::simulation::furniture_models()) {
+        const auto model = room_views::surface_of(furniture);
+        const auto& coarse = model.coarse();
+        ASSERT_EQ(coarse.points.size(), coarse.normals.size());
+        EXPECT_LT(2 * coarse.points.size(), model.points().size()) << furniture.name;
+        const double reach = 2.0 * model.spacing();
+        const auto of_one_side = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& normal) {
+            const auto near = coarse.points.within(x, reach);
+            return std::ranges::count_if(near, [&](const gnomon::neighbor& q) {
+                return coarse.normals[q.index].normal.dot(normal) > 0.8;
+            });
+        };
+        for (std::size_t i = 0; i < model.points().size(); ++i)
+            EXPECT_GE(of_one_side(model.points()[i], model.normals()[i].normal), 1);
+        for (std::size_t i = 0; i < coarse.points.size(); ++i)
+            EXPECT_EQ(of_one_side(coarse.points[i], coarse.normals[i].normal), 1);
+    }
+    EXPECT_EQ(of_samples({}).coarse().points.size(), 0u);
 }
 
 TEST(surface_model, refuses_bad_samples) {

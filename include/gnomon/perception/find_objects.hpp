@@ -25,11 +25,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -174,8 +176,9 @@ class object_finder {
             team(places.size(), [&](std::size_t i) {
                 const surface_model& model = surfaces_[places[i].object];
                 found_object& h = result[i];
-                h = detail::aligned_carefully(
-                    at.scene, detail::aligned_roughly(at.scene, places[i], surfaces_), model);
+                h = detail::aligned_roughly(at.scene, places[i], surfaces_);
+                h = detail::aligned_carefully(at.scene,
+                                              detail::improved_roughly(at.scene, h, model), model);
                 recognize(at.scene, h);
                 h.aligned = at.scene.by_whole_beams(h.aligned, model, options.divergence);
             });
@@ -217,10 +220,12 @@ class object_finder {
         if (kept.empty() || !seen.ground || names_.empty()) return seen;
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                           {.edge = perceive_views_options{}.cell}, team);
+        std::optional<detail::mixed_cells> mixed;
+        if (options.divergence > degrees(0.0))
+            mixed.emplace(points, kept, cells, options.divergence, noise, team, projection);
         const detail::scene_evidence scene(
             cells, visibility(points, {.noise = noise}, team, projection),
-            votes_.votes(seen.views, team), noise, *seen.ground, team,
-            detail::mixed_cells(points, kept, cells, options.divergence, noise, team, projection));
+            votes_.votes(seen.views, team), noise, *seen.ground, team, mixed ? &*mixed : nullptr);
         f(scene_of{kept, cells, scene});
         return seen;
     }

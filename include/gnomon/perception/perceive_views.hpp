@@ -39,16 +39,10 @@
 #include <gnomon/filters/remove_mixed_points.hpp>
 #include <gnomon/filters/remove_silhouettes.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
-#include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/measure_noise.hpp>
-#include <gnomon/normals/plane_pca.hpp>
-#include <gnomon/occlusion/merge_policy.hpp>
-#include <gnomon/perception/detail/object_cells.hpp>
-#include <gnomon/perception/perception.hpp>
-#include <gnomon/perception/perception_result.hpp>
+#include <gnomon/perception/detail/object_groups.hpp>
 #include <gnomon/recognition/view.hpp>
 #include <gnomon/recognition/views_of.hpp>
-#include <gnomon/segmentation/euclidean_clusters.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -149,35 +143,6 @@ template <class R, execution X, class Proj>
     return both;
 }
 
-/// Surfaces of a group of cells.
-template <class R, execution X>
-[[nodiscard]] perception_result<plane_fit> surfaces_in(const R& cells,
-                                                       const perceive_views_options& options,
-                                                       const X& run) {
-    const std::size_t k = neighbors_by_density(cells, options.k, options.reach, run);
-    perception<knn, plane_pca, conservative, smooth_surfaces> chain{.neighborhood = {.k = k},
-                                                                    .noise = options.noise};
-    chain.segmentation.surfaces.min_points = k / 2;
-    return chain(cells, run);
-}
-
-/// The groups of cells that may be objects: all in one, or those of at most a gap from each other
-/// that are not in walls. Takes over the noise that was measured on all.
-template <execution X>
-[[nodiscard]] segments object_groups(const voxel_grid::means& cells,
-                                     perceive_views_options& options, const Eigen::Vector3d& up,
-                                     const X& run) {
-    if (!(options.gap < infinite_gap)) return segments(std::vector<std::int32_t>(cells.size(), 0));
-    const auto seen = surfaces_in(cells, options, run);
-    if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
-    const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length, up);
-    const auto nearby =
-        euclidean_clusters(subset_view(cells, left), {.radius = options.gap, .min_points = 1}, run);
-    std::vector<std::int32_t> labels(cells.size(), unlabeled);
-    for (std::size_t i = 0; i < left.size(); ++i) labels[left[i]] = nearby.labels()[i];
-    return segments(std::move(labels));
-}
-
 }  // namespace detail
 
 /// Perceives the views of objects in a scan.
@@ -208,25 +173,19 @@ template <class R, execution X = sequential, class Proj = std::identity>
     if (cells.size() >= least) {
         const segments groups = detail::object_groups(
             cells, options, result.ground ? result.ground->normal : options.up, team);
+        const auto seen = detail::seen_groups(cells, groups, least, options, result.ground, team);
         std::int32_t parts = 0;
-        for (std::size_t g = 0; g < groups.size() && groups[g].size() >= least; ++g) {
-            const subset_view group(cells, groups[g]);
-            const auto seen = detail::surfaces_in(group, options, team);
-            auto views = views_of(group, seen.surface, seen.surfaces,
-                                  {.gap = infinite_gap,
-                                   .min_parts = std::max<std::size_t>(1, options.min_parts),
-                                   .ground = result.ground},
-                                  team);
-            if (views.empty()) continue;
-            for (part& p : views.front().parts) p.segment += parts;
-            for (std::size_t i = 0; i < group.size(); ++i) {
+        for (std::size_t g = 0; g < seen.size(); ++g) {
+            if (!seen[g].as_view) continue;
+            result.views.push_back(*seen[g].as_view);
+            for (part& p : result.views.back().parts) p.segment += parts;
+            for (std::size_t i = 0; i < groups[g].size(); ++i) {
                 const point_index c = groups[g][i];
-                const std::int32_t label = seen.surfaces.labels()[i];
+                const std::int32_t label = seen[g].surfaces.labels()[i];
                 if (label != unlabeled) part_of_cell[c] = parts + label;
-                view_of_cell[c] = static_cast<std::int32_t>(result.views.size());
+                view_of_cell[c] = static_cast<std::int32_t>(result.views.size() - 1);
             }
-            parts += static_cast<std::int32_t>(seen.surfaces.size());
-            result.views.push_back(std::move(views.front()));
+            parts += static_cast<std::int32_t>(seen[g].surfaces.size());
         }
     }
     const auto of_points = [&](const std::vector<std::int32_t>& of_cells) {

@@ -77,7 +77,7 @@ class cast_votes {
     /// @param x, y     of the object's frame on the ground [m]
     /// @param heading  of the object [rad]
     void add(std::size_t object, double x, double y, double heading, double weight) {
-        votes_[object].push_back({x, y, heading, weight, parts_ - 1});
+        votes_[object].push_back({x, y, heading, weight, parts_ - 1, std::floor(x / reach())});
     }
 
     /// The sum of the votes for an object at a pose in the scan, at most one of each part; 0 for an
@@ -87,9 +87,10 @@ class cast_votes {
         const Eigen::Vector3d place = ground_.point_in(pose.position);
         const Eigen::Vector3d ahead =
             ground_.direction_in(gnomon::detail::column(pose.rotation, 0));
+        const vote here{place.x(), place.y(), std::atan2(ahead.y(), ahead.x()), 0.0, 0, 0.0};
         std::vector<double> of_part(parts_, 0.0);
-        return sum_at(votes_[object],
-                      {place.x(), place.y(), std::atan2(ahead.y(), ahead.x()), 0.0, 0}, of_part);
+        add_votes(votes_[object], here, of_part);
+        return taken_sum(of_part);
     }
 
     /// The places at which most votes agree.
@@ -110,15 +111,24 @@ class cast_votes {
     struct vote {
         double x, y, heading, weight;
         std::uint32_t part;
+        double strip;  // along y, as wide as votes reach: its number
     };
 
     static constexpr double most_deviations = 3.0;  // performance only: of votes that agree
 
-    /// The sum of some votes for a place, at most one of each part.
-    /// @param of_part  zero for each part, before and after
-    [[nodiscard]] double sum_at(std::span<const vote> votes, const vote& place,
-                                std::vector<double>& of_part) const {
+    /// Votes that agree are not farther from each other [m].
+    [[nodiscard]] double reach() const {
+        constexpr double rounding = 1e-9;  // numerical: of distances
+        return (1.0 + rounding) * most_deviations * options_.reach;
+    }
+
+    /// Adds some votes for a place to those of each part.
+    void add_votes(std::span<const vote> votes, const vote& place,
+                   std::vector<double>& of_part) const {
         for (const vote& v : votes) of_part[v.part] += v.weight * agreement(place, v);
+    }
+    /// The sum of the votes of all parts, at most one of each, which become zero.
+    [[nodiscard]] static double taken_sum(std::vector<double>& of_part) {
         double sum = 0.0;
         for (double& one : of_part) {
             sum += std::min(one, 1.0);
@@ -138,8 +148,8 @@ class cast_votes {
 
     /// How much two votes agree, from 0 to 1.
     [[nodiscard]] double agreement(const vote& a, const vote& b) const {
-        const double reach = options_.reach, turn = options_.turn.radians();
-        const double dx = (a.x - b.x) / reach, dy = (a.y - b.y) / reach;
+        const double deviation = options_.reach, turn = options_.turn.radians();
+        const double dx = (a.x - b.x) / deviation, dy = (a.y - b.y) / deviation;
         const double across = dx * dx + dy * dy;
         constexpr double most = most_deviations * most_deviations;
         if (across > most) return 0.0;
@@ -151,16 +161,22 @@ class cast_votes {
     /// The places of an object at which most votes agree.
     [[nodiscard]] std::vector<object_place> maxima_of(std::size_t object) const {
         std::vector<vote> votes = votes_[object];
-        std::stable_sort(votes.begin(), votes.end(),
-                         [](const vote& a, const vote& b) { return a.x < b.x; });
-        const double reach = most_deviations * options_.reach;
+        std::stable_sort(votes.begin(), votes.end(), [](const vote& a, const vote& b) {
+            return std::pair(a.strip, a.y) < std::pair(b.strip, b.y);
+        });
+        const auto first_from = [&](double strip, double y) {
+            return std::partition_point(votes.cbegin(), votes.cend(), [&](const vote& v) {
+                return std::pair(v.strip, v.y) < std::pair(strip, y);
+            });
+        };
         std::vector<double> of_part(parts_, 0.0);
         std::vector<std::pair<double, std::size_t>> sums;
-        auto first = votes.cbegin(), last = first;  // those that may agree with vote i
         for (std::size_t i = 0; i < votes.size(); ++i) {
-            while (first->x < votes[i].x - reach) ++first;
-            while (last != votes.cend() && last->x <= votes[i].x + reach) ++last;
-            sums.emplace_back(-sum_at({first, last}, votes[i], of_part), i);
+            const vote& own = votes[i];
+            for (const double strip : {own.strip - 1.0, own.strip, own.strip + 1.0})
+                add_votes({first_from(strip, own.y - reach()), first_from(strip, own.y + reach())},
+                          own, of_part);
+            sums.emplace_back(-taken_sum(of_part), i);
         }
         std::sort(sums.begin(), sums.end());
         std::vector<object_place> places;

@@ -11,6 +11,7 @@
 /// In no umbrella: include it by name.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -19,11 +20,13 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/recognition/vertical_symmetry.hpp>
 
@@ -38,6 +41,11 @@ class surface_model {
     struct oriented {
         Eigen::Vector3d normal;  ///< of unit length
     };
+    /// Samples, and the normal of each.
+    struct oriented_samples {
+        spatial_index points;
+        std::vector<oriented> normals;
+    };
 
     /// Of no samples.
     surface_model() = default;
@@ -47,40 +55,46 @@ class surface_model {
     /// @param spacing   about one sample per square of this size [m]
     /// @param symmetry  as stored before; by default it is measured
     /// @throws std::invalid_argument  if points and normals differ in number, a point is not
-    /// finite,
-    ///                                a normal not of unit length, or the spacing not positive
+    ///                                finite, a normal not of unit length, or the spacing not
+    ///                                positive
     /// Complexity: O(n log n).
     template <class R, normal_range Normals, class Proj = std::identity>
         requires point_range<R, Proj>
     surface_model(const R& points, const Normals& normals, double spacing,
                   std::optional<vertical_symmetry> symmetry = {}, Proj projection = {})
-        : index_(points, sequential{}, std::move(projection)), spacing_(spacing) {
+        : all_{spatial_index(points, sequential{}, std::move(projection)), {}}, spacing_(spacing) {
         using gnomon::detail::require;
-        require(static_cast<std::size_t>(std::ranges::size(normals)) == index_.size(),
+        require(static_cast<std::size_t>(std::ranges::size(normals)) == all_.points.size(),
                 "surface_model: points and normals differ in number");
-        require(index_.finite() == index_.size(), "surface_model: a point is not finite");
+        const std::size_t n = all_.points.size();
+        require(all_.points.finite() == n, "surface_model: a point is not finite");
         require(spacing > 0.0 && std::isfinite(spacing),
                 "surface_model: the spacing must be positive and finite");
-        normals_.reserve(index_.size());
-        for (std::size_t i = 0; i < index_.size(); ++i) {
-            const Eigen::Vector3d n = normals[i].normal;
+        all_.normals.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const Eigen::Vector3d normal = normals[i].normal;
             constexpr double rounding = 1e-3;  // numerical: of normals in float
-            require(std::abs(gnomon::detail::dot(n, n) - 1.0) < rounding,
+            require(std::abs(gnomon::detail::dot(normal, normal) - 1.0) < rounding,
                     "surface_model: a normal must be of unit length");
-            normals_.push_back({n});
-            const Eigen::Vector3d p = index_[i];
+            all_.normals.push_back({normal});
+            const Eigen::Vector3d p = all_.points[i];
             for (int a = 0; a < 3; ++a) {
                 low_[a] = i == 0 ? p[a] : std::min(low_[a], p[a]);
                 high_[a] = i == 0 ? p[a] : std::max(high_[a], p[a]);
             }
         }
-        symmetry_ = symmetry ? *symmetry : measure_symmetry(index_, normals_, spacing);
+        set_coarse();
+        symmetry_ = symmetry ? *symmetry : measure_symmetry(all_.points, all_.normals, spacing);
     }
 
     /// The samples, in the order in which they were given: an index and a point range [m].
-    [[nodiscard]] const spatial_index& points() const { return index_; }
+    [[nodiscard]] const spatial_index& points() const { return all_.points; }
     /// Their normals, a `normal_range`.
-    [[nodiscard]] const std::vector<oriented>& normals() const { return normals_; }
+    [[nodiscard]] const std::vector<oriented>& normals() const { return all_.normals; }
+    /// The samples with their normals.
+    [[nodiscard]] const oriented_samples& all() const { return all_; }
+    /// About one of them per square of twice the spacing, to align with in less time.
+    [[nodiscard]] const oriented_samples& coarse() const { return coarse_; }
     [[nodiscard]] double spacing() const { return spacing_; }  ///< [m]
     /// The turns about the vertical under which the surface is the same.
     [[nodiscard]] const vertical_symmetry& symmetry() const { return symmetry_; }
@@ -88,8 +102,28 @@ class surface_model {
     [[nodiscard]] const Eigen::Vector3d& high() const { return high_; }  ///< largest ones [m]
 
   private:
-    spatial_index index_;
-    std::vector<oriented> normals_;
+    /// Takes each sample that is not next to one of the same side that was taken.
+    void set_coarse() {
+        constexpr double spacings = 2.0;
+        constexpr double same_side = 0.8;  // chosen: cosine of 37 degrees, as in alignments
+        std::vector<Eigen::Vector3d> points;
+        std::vector<bool> is_covered(all_.points.size(), false);
+        std::vector<neighbor> near;
+        for (std::size_t i = 0; i < is_covered.size(); ++i) {
+            if (is_covered[i]) continue;
+            points.push_back(all_.points[i]);
+            coarse_.normals.push_back(all_.normals[i]);
+            all_.points.within_into(near, points.back(), spacings * spacing_);
+            for (const neighbor& q : near) {
+                const auto& other = all_.normals[q.index].normal;
+                if (gnomon::detail::dot(other, all_.normals[i].normal) > same_side)
+                    is_covered[q.index] = true;
+            }
+        }
+        coarse_.points = spatial_index(points);
+    }
+
+    oriented_samples all_, coarse_;
     double spacing_ = 0.0;
     vertical_symmetry symmetry_;
     Eigen::Vector3d low_{0.0, 0.0, 0.0}, high_{0.0, 0.0, 0.0};

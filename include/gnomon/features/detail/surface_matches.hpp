@@ -116,38 +116,24 @@ class matched_surface {
         return std::min(match.distance, limit) + moved <= list.reach;
     }
 
-    /// Searches for the samples near x.
+    /// Searches for the compatible samples that are nearest to x.
     void search(sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
                 const Eigen::Vector3d& own, double limit, std::vector<neighbor>& found) const {
-        // Of a thin board the nearest samples may all be on the other side. (Performance only, but
-        // for boards of less than a fifth of the distance of a point.)
-        constexpr std::size_t first = 12, most = 64;
-        list.searched = x;
         const double radius = slack * limit;
-        const auto is_left_out = [&](const neighbor& q) {
-            const Eigen::Vector3d n = normals_[q.index].normal;
-            return !is_unit(n) || !is_compatible(n, ray, own);
+        const auto is_wanted = [&](point_index q) {
+            const Eigen::Vector3d n = normals_[q].normal;
+            return is_unit(n) && is_compatible(n, ray, own);
         };
-        for (const std::size_t k : {first, most}) {
-            search_tree_unsorted(samples_.tree(), x, {.k = k, .squared_radius = radius * radius},
-                                 found);
-            const bool are_all = found.size() < k;
-            list.reach =
-                are_all ? radius
-                        : std::sqrt(std::max_element(found.begin(), found.end())->squared_distance);
-            std::erase_if(found, is_left_out);
-            if (!found.empty() || are_all) break;
-        }
-        std::sort(found.data(), found.data() + found.size());
-        list.count = std::min(found.size(), list.of.size());
+        search_tree(samples_.tree(), x, {.k = list.of.size(), .squared_radius = radius * radius},
+                    found, canonical_metric{}, is_wanted);
+        list.searched = x;
+        list.count = found.size();
+        list.reach = radius;
         for (std::size_t i = 0; i < list.count; ++i) {
             const point_index q = found[i].index;
             list.of[i] = {samples_[q], normals_[q].normal, q};
+            if (i + 1 == list.of.size()) list.reach = std::sqrt(found[i].squared_distance);
         }
-        if (list.count == list.of.size())
-            list.reach = std::sqrt(found[list.count - 1].squared_distance);
-        // Also where nothing is compatible the answer is that of this search.
-        list.reach = std::max(list.reach, list.count == 0 ? limit : 0.0);
     }
 
     [[nodiscard]] static bool is_unit(const Eigen::Vector3d& n) {

@@ -46,10 +46,12 @@ namespace gnomon::recognition::detail {
 /// The alignment of some cells, of which at most `most` are used, evenly chosen, with the surface
 /// of an object.
 /// @param surface  of all cells, a `normal_range`
+/// @param samples  of the surface of the object
 /// @param start    of the object in the scan, as is the pose of the result
 [[nodiscard]] alignment alignment_of_cells(const voxel_grid::means& cells, const auto& surface,
                                            const std::vector<point_index>& some, std::size_t most,
-                                           const surface_model& model, const rigid_motion& start,
+                                           const surface_model::oriented_samples& samples,
+                                           const rigid_motion& start,
                                            const alignment_options& options) {
     const std::size_t n = std::min(some.size(), most);
     std::vector<point_index> used(n);
@@ -58,7 +60,7 @@ namespace gnomon::recognition::detail {
         used[k] = some[k * some.size() / n];
         normals[k].normal = surface[used[k]].normal;
     }
-    return align_to_surface(subset_view(cells, used), normals, model.points(), model.normals(),
+    return align_to_surface(subset_view(cells, used), normals, samples.points, samples.normals,
                             start.inverse(), options)
         .inverse();
 }

@@ -10,26 +10,26 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/point_range.hpp>
 #include <gnomon/features/segment_shape.hpp>
-#include <gnomon/neighborhoods/adjacency.hpp>
-#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::recognition::detail {
 
 /// The number of neighbors within `reach` at the median density of points, but at least 10 and at
 /// most k.
-template <class R>
-[[nodiscard]] std::size_t neighbors_by_density(const R& points, std::size_t k, double reach,
-                                               const auto& run) {
+[[nodiscard]] inline std::size_t neighbors_by_density(const spatial_index& points, std::size_t k,
+                                                      double reach) {
     constexpr std::size_t nearby = 4, least = 10;  // chosen on furniture_models(), seed 7
-    const adjacency nearest = knn{.k = nearby}(points, run);
-    const position_view<R> position(points, {});
+    constexpr std::size_t enough = 2000;           // performance only: points, evenly chosen
+    const std::size_t n = std::min(points.finite(), enough);
     std::vector<double> squared;
-    for (std::size_t i = 0; i < nearest.size(); ++i) {
-        if (nearest[i].size() == nearby)
-            squared.push_back(gnomon::squared_distance(position[i], position[nearest[i].back()]));
+    std::vector<neighbor> nearest;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t place = i * points.finite() / n;
+        points.nearest_into(nearest, points[points.tree().index()[place]], nearby + 1);
+        if (nearest.size() > nearby) squared.push_back(nearest.back().squared_distance);
     }
     if (squared.empty()) return std::min(least, k);
     const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,34 +24,6 @@
 
 namespace gnomon::recognition::detail {
 
-/// A hypothesis, or the same object aligned from a start next to it, and again from one next to
-/// that, where it fits clearly better: an alignment may end where a slat of the model is on the
-/// next slat of the chair.
-[[nodiscard]] inline found_object improved(const scene_evidence& scene, found_object best,
-                                           const surface_model& model,
-                                           const scene_evidence::effort& much) {
-    constexpr int most = 3;                // rounds; chosen: few change in the third
-    constexpr double step = 0.08;          // [m]; chosen, and tried on rooms of seeds 1 to 14
-    constexpr angle turn = degrees(12.0);  // chosen: as wide at 40 cm from the middle
-    constexpr angle none = degrees(0.0);
-    for (int round = 0; round < most; ++round) {
-        const rigid_motion from = best.aligned.pose;
-        bool is_better = false;
-        for (const rigid_motion& other :
-             {rigid_motion::on_ground(step, 0.0, none), rigid_motion::on_ground(-step, 0.0, none),
-              rigid_motion::on_ground(0.0, step, none), rigid_motion::on_ground(0.0, -step, none),
-              rigid_motion::on_ground(0.0, 0.0, turn),
-              rigid_motion::on_ground(0.0, 0.0, degrees(-turn.degrees()))}) {
-            auto next = scene.aligned_better(best, from * other, model, much);
-            if (!next) continue;
-            best = *std::move(next);
-            is_better = true;
-        }
-        if (!is_better) break;
-    }
-    return best;
-}
-
 /// Whether two hypotheses are one object at one pose.
 /// @param model  of the first
 [[nodiscard]] inline bool is_same(const found_object& a, const found_object& b,
@@ -64,12 +37,59 @@ namespace gnomon::recognition::detail {
            model.symmetry().difference(heading, degrees(0.0)) < turn;
 }
 
-/// A hypothesis that was aligned roughly, improved and aligned carefully.
+/// A hypothesis, or the same object aligned from a start next to it, and again from one next to
+/// that, where it fits clearly better: an alignment may end where a slat of the model is on the
+/// next slat of the chair.
+/// @param better_from  (best, start): the same object, aligned from a start, if it fits better
+[[nodiscard]] inline found_object improved(found_object best, const auto& better_from) {
+    constexpr int most = 3;                // rounds; chosen: few change in the third
+    constexpr double step = 0.08;          // [m]; chosen, and tried on rooms of seeds 1 to 14
+    constexpr angle turn = degrees(12.0);  // chosen: as wide at 40 cm from the middle
+    constexpr angle none = degrees(0.0);
+    for (int round = 0; round < most; ++round) {
+        const rigid_motion from = best.aligned.pose;
+        bool is_better = false;
+        for (const rigid_motion& other :
+             {rigid_motion::on_ground(step, 0.0, none), rigid_motion::on_ground(-step, 0.0, none),
+              rigid_motion::on_ground(0.0, step, none), rigid_motion::on_ground(0.0, -step, none),
+              rigid_motion::on_ground(0.0, 0.0, turn),
+              rigid_motion::on_ground(0.0, 0.0, degrees(-turn.degrees()))}) {
+            std::optional<found_object> next = better_from(best, from * other);
+            if (!next) continue;
+            best = *std::move(next);
+            is_better = true;
+        }
+        if (!is_better) break;
+    }
+    return best;
+}
+
+/// A hypothesis that was aligned roughly, improved.
+[[nodiscard]] inline found_object improved_roughly(const scene_evidence& scene,
+                                                   const found_object& rough,
+                                                   const surface_model& model) {
+    return improved(rough, [&](const found_object& best, const rigid_motion& start) {
+        return scene.aligned_better(best, start, model, scene_evidence::rough);
+    });
+}
+
+/// The same carefully, but for starts from which it is aligned roughly to the pose that it has.
+[[nodiscard]] inline found_object improved_carefully(const scene_evidence& scene,
+                                                     const found_object& careful,
+                                                     const surface_model& model) {
+    return improved(careful, [&](const found_object& best, const rigid_motion& start) {
+        const found_object rough = scene.aligned(best.object, start, model, scene_evidence::rough);
+        return is_same(best, rough, model)
+                   ? std::nullopt
+                   : scene.aligned_better(best, rough.aligned.pose, model, scene_evidence::careful);
+    });
+}
+
+/// A hypothesis, aligned carefully from its pose.
 [[nodiscard]] inline found_object aligned_carefully(const scene_evidence& scene,
                                                     const found_object& rough,
                                                     const surface_model& model) {
-    const rigid_motion start = improved(scene, rough, model, scene_evidence::rough).aligned.pose;
-    return scene.aligned(rough.object, start, model, scene_evidence::careful);
+    return scene.aligned(rough.object, rough.aligned.pose, model, scene_evidence::careful);
 }
 
 /// An object that may stand at a place: aligned roughly from there.
@@ -79,37 +99,46 @@ namespace gnomon::recognition::detail {
     return scene.aligned(place.object, place.pose, models[place.object], scene_evidence::rough);
 }
 
-/// Hypotheses that are worth it: aligned roughly from all places, then, where several came to one
-/// pose, the most probable of these aligned carefully.
+/// The hypotheses that are worth it, the most probable one first, and of those that are one object
+/// at one pose only that.
+[[nodiscard]] inline std::vector<found_object> distinct(std::vector<found_object> hypotheses,
+                                                        std::span<const surface_model> models) {
+    std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
+    std::vector<found_object> kept;
+    for (found_object& h : hypotheses) {
+        if (h.probability < scene_evidence::worth) break;
+        if (std::ranges::none_of(
+                kept, [&](const found_object& k) { return is_same(h, k, models[h.object]); }))
+            kept.push_back(std::move(h));
+    }
+    return kept;
+}
+
+/// Hypotheses that are worth it: aligned roughly from all places, then improved, then aligned
+/// carefully, each pose to which several came only once.
 [[nodiscard]] inline std::vector<found_object> hypotheses_at(std::span<const object_place> places,
                                                              const scene_evidence& scene,
                                                              std::span<const surface_model> models,
                                                              const auto& run) {
-    std::vector<found_object> all(places.size()), distinct;
-    run(places.size(), [&](std::size_t i) { all[i] = aligned_roughly(scene, places[i], models); });
-    std::ranges::stable_sort(all, std::greater{}, &found_object::probability);
-    for (found_object& h : all) {
-        if (h.probability < scene_evidence::worth) break;
-        if (std::ranges::none_of(
-                distinct, [&](const found_object& d) { return is_same(h, d, models[h.object]); }))
-            distinct.push_back(std::move(h));
+    std::vector<found_object> some(places.size());
+    run(places.size(), [&](std::size_t i) { some[i] = aligned_roughly(scene, places[i], models); });
+    for (const auto next : {&improved_roughly, &aligned_carefully}) {
+        some = distinct(std::move(some), models);
+        run(some.size(),
+            [&](std::size_t i) { some[i] = next(scene, some[i], models[some[i].object]); });
     }
-    run(distinct.size(), [&](std::size_t i) {
-        found_object& h = distinct[i];
-        h = aligned_carefully(scene, h, models[h.object]);
-    });
-    return distinct;
+    return some;
 }
 
-/// Moves objects that were found to the poses that fit best, searched carefully, then, if beams
-/// have a width, to those of the points that whole beams hit. They are as probable as before.
+/// Moves objects that were found, each aligned carefully, to the poses that fit best, then, if
+/// beams have a width, to those of the points that whole beams hit. They are as probable as before.
 /// @param divergence  full angle of the beams
 inline void settle(std::vector<found_object>& objects, const scene_evidence& scene,
                    std::span<const surface_model> models, angle divergence, const auto& run) {
     run(objects.size(), [&](std::size_t i) {
         found_object& o = objects[i];
         const surface_model& model = models[o.object];
-        found_object settled = improved(scene, o, model, scene_evidence::careful);
+        found_object settled = improved_carefully(scene, o, model);
         settled.aligned = scene.by_whole_beams(settled.aligned, model, divergence);
         settled.log_recognized = o.log_recognized;
         settled.probability = o.probability;

@@ -56,7 +56,7 @@ class scene_evidence {
 
     scene_evidence(const voxel_grid::means& cells, visibility seen, cast_votes votes,
                    const noise_curve& noise, const plane& ground, const auto& run,
-                   std::vector<std::uint8_t> is_mixed = {})
+                   const mixed_cells* mixed = nullptr)
         : cells_(cells),
           index_(cells, run),
           surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
@@ -64,7 +64,7 @@ class scene_evidence {
           votes_(std::move(votes)),
           noise_(noise),
           ground_(ground),
-          is_mixed_(std::move(is_mixed)) {}
+          mixed_(mixed) {}
 
     /// Places at which objects may stand: those for which parts vote, and others where their
     /// surface may be.
@@ -87,10 +87,11 @@ class scene_evidence {
     /// How much of a scan and of a model is compared; performance only.
     struct effort {
         std::size_t cells;    ///< that are aligned
+        bool with_all;        ///< samples of the model, or with the coarse ones
         int iterations;       ///< of an alignment
         std::size_t samples;  ///< that are verified
     };
-    static constexpr effort rough{100, 15, 150}, careful{600, 50, 1000};
+    static constexpr effort rough{100, false, 15, 150}, careful{600, true, 50, 1000};
 
     /// An object, aligned from a pose and verified.
     [[nodiscard]] found_object aligned(std::size_t object, const rigid_motion& start,
@@ -128,11 +129,11 @@ class scene_evidence {
         alignment settled = found;
         double share = unseen, widest = 0.0;
         for (int round = 0; round < rounds; ++round) {
-            const auto whole = whole_beams_at(cells_, index_, surface_, is_mixed_, model,
-                                              settled.pose, divergence, how.max_distance);
+            const auto whole = whole_beams_at(cells_, index_, surface_, mixed_, model, settled.pose,
+                                              divergence, how.max_distance);
             widest = whole.widest;
             const auto next = alignment_of_cells(cells_, surface_, whole.points, careful.cells,
-                                                 model, settled.pose, how);
+                                                 model.all(), settled.pose, how);
             const Eigen::Vector3d moved =
                 difference(next.pose.point_out(found.pose.point_in(found.center)), found.center);
             const double ahead = dot(direction_of(whole.way), moved);
@@ -216,7 +217,8 @@ class scene_evidence {
         const bool is_enough = inside.size() >= fewest;
         if (!is_enough && !is_refused(h.evidence, 0)) return h;
         if (!is_enough) return std::nullopt;
-        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, model, start,
+        const auto& samples = much.with_all ? model.all() : model.coarse();
+        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
                                        {.noise = noise_,
                                         .on_ground = true,
                                         .max_distance = farthest,
@@ -242,7 +244,7 @@ class scene_evidence {
     cast_votes votes_;
     noise_curve noise_;
     plane ground_;
-    std::vector<std::uint8_t> is_mixed_;  // of each cell, by mixed_cells()
+    const mixed_cells* mixed_;  // null if beams are narrow
 };
 
 }  // namespace gnomon::recognition::detail

@@ -8,12 +8,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/begins_from_sizes.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
@@ -60,28 +62,39 @@ namespace gnomon::recognition::detail {
     });
 }
 
-/// Of each cell of some points of a scan: whether a beam mixed any of its points; empty if beams
-/// are narrow.
-/// @param chosen      the points that are in cells
-/// @param cells       of these
-/// @param divergence  full angle of the beams
-/// @param noise       along the rays
-template <class R, class Proj>
-[[nodiscard]] std::vector<std::uint8_t> mixed_cells(const R& points,
-                                                    const std::vector<point_index>& chosen,
-                                                    const voxel_grid::means& cells,
-                                                    angle divergence, const noise_curve& noise,
-                                                    const auto& run, Proj projection) {
-    if (divergence == degrees(0.0)) return {};
-    const gnomon::detail::mixed_point_test test(points, {.divergence = divergence, .noise = noise},
-                                                run, projection);
-    std::vector<std::uint8_t> is_mixed(chosen.size(), 0), any(cells.size(), 0);
-    gnomon::detail::for_each_chunk(run, chosen.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) is_mixed[i] = test(chosen[i]) ? 1 : 0;
-    });
-    for (std::size_t i = 0; i < chosen.size(); ++i) any[cells.of_point[i]] |= is_mixed[i];
-    return any;
-}
+/// Whether a beam mixed any of the points of a cell: tested when it is needed, which is for the few
+/// cells of objects that were found.
+class mixed_cells {
+  public:
+    /// @param chosen      the points of a scan that are in cells
+    /// @param cells       of these
+    /// @param divergence  full angle of the beams
+    /// @param noise       along the rays
+    template <class R, class Proj>
+    mixed_cells(const R& points, std::span<const point_index> chosen,
+                const voxel_grid::means& cells, angle divergence, const noise_curve& noise,
+                const auto& run, Proj projection)
+        : is_mixed_(points, {.divergence = divergence, .noise = noise}, run, projection),
+          points_(chosen.size()),
+          begins_(cells.size() + 1, 0) {
+        for (const point_index c : cells.of_point) ++begins_[c + 1];
+        gnomon::detail::begins_from_sizes(begins_);
+        std::vector<std::size_t> next = begins_;
+        for (std::size_t i = 0; i < chosen.size(); ++i)
+            points_[next[cells.of_point[i]]++] = chosen[i];
+    }
+
+    [[nodiscard]] bool operator()(point_index cell) const {
+        const std::span<const point_index> points(points_);
+        return std::ranges::any_of(points.subspan(begins_[cell], begins_[cell + 1] - begins_[cell]),
+                                   std::cref(is_mixed_));
+    }
+
+  private:
+    gnomon::detail::mixed_point_test is_mixed_;
+    std::vector<point_index> points_;  // cell by cell
+    std::vector<std::size_t> begins_;  // of the points of each cell
+};
 
 /// Points of an object, and the beams that hit them.
 struct whole_beams {
@@ -93,12 +106,11 @@ struct whole_beams {
 /// @param cloud       of index and normals, seen from the origin without view points
 /// @param normals     of its points, a `normal_range`
 /// @param pose        of the object
-/// @param is_mixed    of each of its points, or empty if that is unknown
+/// @param mixed       which of its points beams mixed; null if that is unknown
 /// @param divergence  full angle of the beams
 /// @param margin      around the object [m]
 [[nodiscard]] whole_beams whole_beams_at(const voxel_grid::means& cloud, const spatial_index& index,
-                                         const auto& normals,
-                                         const std::vector<std::uint8_t>& is_mixed,
+                                         const auto& normals, const mixed_cells* mixed,
                                          const surface_model& model, const rigid_motion& pose,
                                          angle divergence, double margin) {
     whole_beams found;
@@ -113,7 +125,7 @@ struct whole_beams {
             const double width = divergence.radians() * gnomon::detail::length(way);
             found.way = gnomon::detail::combined(1.0, found.way, 1.0, way);
             found.widest = std::max(found.widest, width);
-            if (!is_mixed.empty() && is_mixed[i] != 0) return;
+            if (mixed != nullptr && (*mixed)(i)) return;
             const Eigen::Vector3d normal = pose.direction_in(normals[i].normal);
             if (!is_at_edge(model, x, normal, 0.5 * width, near)) found.points.push_back(i);
         });

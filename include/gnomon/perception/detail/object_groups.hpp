@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The groups of cells of a scan that may be objects, and the view of each. Options are here those
+/// of `perceive_views`.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/occlusion/merge_policy.hpp>
+#include <gnomon/perception/detail/object_cells.hpp>
+#include <gnomon/perception/perception.hpp>
+#include <gnomon/perception/perception_result.hpp>
+#include <gnomon/recognition/view.hpp>
+#include <gnomon/recognition/views_of.hpp>
+#include <gnomon/segmentation/euclidean_clusters.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::recognition::detail {
+
+/// Surfaces of a group of cells.
+template <class R, execution X>
+[[nodiscard]] perception_result<plane_fit> surfaces_in(const R& cells, const auto& options,
+                                                       const X& run) {
+    const spatial_index index(cells, run);
+    const std::size_t k = neighbors_by_density(index, options.k, options.reach);
+    perception<knn, plane_pca, conservative, smooth_surfaces> chain{.neighborhood = {.k = k},
+                                                                    .noise = options.noise};
+    chain.segmentation.surfaces.min_points = k / 2;
+    return chain(index, run);
+}
+
+/// The groups of cells that may be objects: all in one, or those of at most a gap from each other
+/// that are not in walls. Takes over the noise that was measured on all.
+template <execution X>
+[[nodiscard]] segments object_groups(const voxel_grid::means& cells, auto& options,
+                                     const Eigen::Vector3d& up, const X& run) {
+    if (!(options.gap < infinite_gap)) return segments(std::vector<std::int32_t>(cells.size(), 0));
+    const auto seen = surfaces_in(cells, options, run);
+    if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
+    const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length, up);
+    const auto nearby =
+        euclidean_clusters(subset_view(cells, left), {.radius = options.gap, .min_points = 1}, run);
+    std::vector<std::int32_t> labels(cells.size(), unlabeled);
+    for (std::size_t i = 0; i < left.size(); ++i) labels[left[i]] = nearby.labels()[i];
+    return segments(std::move(labels));
+}
+
+/// What is seen of a group of cells.
+struct seen_group {
+    segments surfaces;
+    std::optional<view> as_view;  ///< none of too few parts
+};
+
+/// What is seen of those of at least `least` cells. Most groups are too small to share: each is one
+/// task.
+/// @param groups  the largest one first
+[[nodiscard]] std::vector<seen_group> seen_groups(const voxel_grid::means& cells,
+                                                  const segments& groups, std::size_t least,
+                                                  const auto& options,
+                                                  const std::optional<plane>& ground,
+                                                  const auto& run) {
+    std::size_t large = 0;
+    while (large < groups.size() && groups[large].size() >= least) ++large;
+    std::vector<seen_group> seen(large);
+    run(large, [&](std::size_t g) {
+        const subset_view group(cells, groups[g]);
+        auto found = surfaces_in(group, options, sequential{});
+        auto views = views_of(group, found.surface, found.surfaces,
+                              {.gap = infinite_gap,
+                               .min_parts = std::max<std::size_t>(1, options.min_parts),
+                               .ground = ground});
+        seen[g].surfaces = std::move(found.surfaces);
+        if (!views.empty()) seen[g].as_view = std::move(views.front());
+    });
+    return seen;
+}
+
+}  // namespace gnomon::recognition::detail
