@@ -98,9 +98,9 @@ SECTIONS = [
      "ones of the decided objects, a second one on the same piece being wrong; recall is the share of all pieces that "
      "were found; accuracy is the share of views that are decided rightly, or rejected and background; whole is the share of "
      "pieces of which one group has 80 % of the points, and hardly others. Poses are those of right objects of 200 "
-     "points and more, up to the symmetry of the model; NEES are the mean of those of poses that are right and that the "
-     "points determine, and the median of all. Both know the noise and the width of the beams. Hypotheses are offered at each piece of 200 points "
-     "and more of the cluttered rooms: all models, at most 5 cm and 10 degrees off, in four headings of which the most "
+     "points and more, up to the symmetry of the model; NEES are those of poses that are right and that the points "
+     "determine: the mean of each seed, and the median of single ones. Both know the noise and the width of the beams. "
+     "Hypotheses are offered at each piece of 200 points and more of the cluttered rooms: all models, at most 5 cm and 10 degrees off, in four headings of which the most "
      "probable one counts. Times are those of the processor, all threads together; the time of a room is the one that passes, for "
      "scans of half as many points."),
 ]

@@ -500,13 +500,13 @@ def poses(tables):
 def covariances(tables):
     row = method_in(tables, "cluttered", VOTING)
     mean = row.get("NEES / dof")
-    return (f"{mean} ({row.get('NEES / dof, worst')}), median of all {row.get('NEES / dof, median')}, "
-            f"of {row.get('of these determined')} poses",
+    return (f"{mean} ({row.get('NEES / dof, least')} to {row.get('NEES / dof, largest')}), "
+            f"median of single ones {row.get('NEES / dof, median')}, of {row.get('of these determined')} poses",
             mean is not None and 0.8 <= mean <= 1.3)
 
 
 @relation("rooms", "5.10.6", "a room of 115,200 points in 0.5 s on two threads", OWN,
-          "half of the time is the alignment of some 200 objects at places, a fifth that of the segmentation of cells")
+          "two fifths of the time are the alignment of some 200 objects at places, a third the segmentation of cells")
 def room_time(tables):
     row = tables["time of a room"][0]
     return f"{row['s per room, median']:.2f} s, at most {row['most']:.2f} s, {row['points']:,} points", row["s per room, median"] <= 0.5

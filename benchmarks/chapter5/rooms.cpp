@@ -105,16 +105,20 @@ json row_of(const method_row& row) {
     result["views"] = all.views;
     if (!all.poses.empty()) {
         result["poses"] = all.poses.size();
-        add_share(result, "within 2 cm and 2 deg", row.seeds, &judgement::share_of_right_poses);
-        std::vector<double> means;  // of the seeds
-        for (const judgement& j : row.seeds)
+        std::vector<double> shares, means;  // of the seeds with poses
+        for (const judgement& j : row.seeds) {
+            if (!j.poses.empty()) shares.push_back(j.share_of_right_poses());
             if (const auto nees = j.nees(); !nees.empty())
                 means.push_back(std::accumulate(nees.begin(), nees.end(), 0.0) /
                                 static_cast<double>(nees.size()));
+        }
+        add_values(result, "within 2 cm and 2 deg", shares, std::ranges::min(shares));
         const auto nees = all.nees();
         result["of these determined"] = nees.size();
         if (!nees.empty()) {
-            add_values(result, "NEES / dof", means, std::ranges::max(means));
+            result["NEES / dof"] = rounded(median_of(means), 3);
+            result["NEES / dof, least"] = rounded(std::ranges::min(means), 3);
+            result["NEES / dof, largest"] = rounded(std::ranges::max(means), 3);
             result["NEES / dof, median"] = rounded(median_of(nees), 2);
         }
     }

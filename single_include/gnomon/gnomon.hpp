@@ -3576,24 +3576,17 @@ struct tree_question {
     const place_set* among = nullptr;  // only these points are found; all, if there is no set
 };
 
-/// Every point may be a neighbor.
-struct any_point {
-    [[nodiscard]] constexpr bool operator()(point_index) const { return true; }
-};
-
 /// One search. Keeps the best candidates in `found`, which finish() puts into canonical order.
-/// @tparam Accepts  (i): whether point i may be a neighbor; tested where it is near enough
-template <class Metric, class Found, class Accepts = any_point>
+template <class Metric, class Found>
 class tree_query {
   public:
     tree_query(const leaf_tree& tree, const Eigen::Vector3d& p, const tree_question& question,
-               const Metric& metric, Found& found, const Accepts& accepts = {})
+               const Metric& metric, Found& found)
         : tree_(tree),
           at_{p[0], p[1], p[2]},
           question_(question),
           metric_(metric),
           found_(found),
-          accepts_(accepts),
           most_(question.ties == tie_rule::all && question.k <= tree.size() ? 2 * question.k
                                                                             : question.k),
           // Candidates are collected up to this number, then the farthest are dropped in linear
@@ -3693,12 +3686,16 @@ class tree_query {
             if (i == question_.except) continue;
             if (question_.among != nullptr && !question_.among->contains(begin + l)) continue;
             const neighbor q{squared[l], i};
-            const bool has_room = most_ > few || found_.size() < most_;
-            if ((!has_room && !(q < found_.back())) || !accepts_(i)) continue;
-            if (has_room)
+            if constexpr (requires { metric_.accepts(i); }) {  // a metric of some points only
+                const bool is_near = most_ > few || found_.size() < most_ || q < found_.back();
+                if (!is_near || !metric_.accepts(i)) continue;
+            }
+            if (most_ > few || found_.size() < most_)
                 found_.push_back(q);
-            else
+            else if (q < found_.back())
                 found_.back() = q;
+            else
+                continue;
             if (most_ <= few) put_last_in_order();
         }
         if (found_.size() >= (most_ > few ? full_ : most_)) drop_farthest();
@@ -3748,7 +3745,6 @@ class tree_query {
     const tree_question& question_;
     const Metric& metric_;
     Found& found_;
-    Accepts accepts_;
     std::size_t most_, full_;
     double shrink_;
     double limit_;    // squared; candidates farther than that are not wanted [m^2]
@@ -3759,11 +3755,10 @@ class tree_query {
 
 /// Replaces the content of `found` by the answer, in canonical order. O(log n + k log k) on average
 /// for the k that are found. Precondition: p is finite.
-template <class Metric = canonical_metric, class Allocator, class Accepts = any_point>
+template <class Metric = canonical_metric, class Allocator>
 void search_tree(const leaf_tree& tree, const Eigen::Vector3d& p, const tree_question& question,
-                 std::vector<neighbor, Allocator>& found, const Metric& metric = {},
-                 const Accepts& accepts = {}) {
-    tree_query(tree, p, question, metric, found, accepts)();
+                 std::vector<neighbor, Allocator>& found, const Metric& metric = {}) {
+    tree_query(tree, p, question, metric, found)();
 }
 
 /// The same in no order.
@@ -27195,6 +27190,12 @@ struct sample_list {
     double reach = -1.0;  ///< all compatible samples up to this distance from there are listed
 };
 
+/// The canonical distance of some samples only.
+template <class Accepts>
+struct distance_of_some : canonical_metric {
+    Accepts accepts;  ///< (i): whether sample i may be found
+};
+
 /// A surface that points are aligned to.
 template <class Normals>
 class matched_surface {
@@ -27268,7 +27269,7 @@ class matched_surface {
             return is_unit(n) && is_compatible(n, ray, own);
         };
         search_tree(samples_.tree(), x, {.k = list.of.size(), .squared_radius = radius * radius},
-                    found, canonical_metric{}, is_wanted);
+                    found, distance_of_some{{}, is_wanted});
         list.searched = x;
         list.count = found.size();
         list.reach = radius;
@@ -27831,7 +27832,8 @@ namespace gnomon {
 /// @return the pose, its covariance and the outcome; points that are not finite are left out
 /// @throws std::invalid_argument  if points or samples and their normals or view points differ in
 ///                                number, the start is no rigid motion, or options are not valid
-/// Complexity: O(n log m) for each of a few iterations.
+/// Complexity: O(n (log m + r)) for each of a few iterations, with r samples of other directions of
+/// normals that are nearer to a point than the corresponding ones, or within 1.25 `max_distance`.
 template <class R, normal_range PointNormals, class S, normal_range Normals,
           execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj> && point_range<S>

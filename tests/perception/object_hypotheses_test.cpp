@@ -172,8 +172,9 @@ TEST(object_hypotheses, settle_by_whole_beams) {
 /// Where no whole beam hits the object, it stays where it is, less certain.
 TEST(object_hypotheses, stay_without_whole_beams) {
     const chair_in_scene chair;
-    std::vector<rec::found_object> sharp(1), blurred(1);
-    sharp[0].aligned.pose = blurred[0].aligned.pose = where_chair_is;
+    std::vector<rec::found_object> sharp{chair.scene().aligned(
+        0, where_chair_is, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
+    auto blurred = sharp;
     const auto settle = [&](auto& found, gnomon::angle divergence) {
         rec::detail::settle(found, chair.scene(), chair.surfaces(), divergence,
                             gnomon::sequential{});
@@ -181,6 +182,8 @@ TEST(object_hypotheses, stay_without_whole_beams) {
     settle(sharp, narrow);
     settle(blurred, degrees(45.0));
     EXPECT_EQ(blurred[0].aligned.pose.position, sharp[0].aligned.pose.position);
+    EXPECT_LT(distance_off(sharp[0]), 0.01);
+    EXPECT_TRUE(sharp[0].aligned.is_usable());
     for (const int a : {3, 4})
         EXPECT_GT(blurred[0].aligned.covariance(a, a), sharp[0].aligned.covariance(a, a) + 0.01);
 }

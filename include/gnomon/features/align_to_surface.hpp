@@ -49,7 +49,8 @@ namespace gnomon {
 /// @return the pose, its covariance and the outcome; points that are not finite are left out
 /// @throws std::invalid_argument  if points or samples and their normals or view points differ in
 ///                                number, the start is no rigid motion, or options are not valid
-/// Complexity: O(n log m) for each of a few iterations.
+/// Complexity: O(n (log m + r)) for each of a few iterations, with r samples of other directions of
+/// normals that are nearer to a point than the corresponding ones, or within 1.25 `max_distance`.
 template <class R, normal_range PointNormals, class S, normal_range Normals,
           execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj> && point_range<S>

@@ -133,10 +133,10 @@ class object_finder {
         result.seen = in_scene(points, options, team, projection, [&](const scene_of& at) {
             auto hypotheses =
                 detail::hypotheses_at(at.scene.places(surfaces_, team), at.scene, surfaces_, team);
-            team(hypotheses.size(), [&](std::size_t i) { recognize(at.scene, hypotheses[i]); });
             std::vector<std::int32_t> of_cell;
-            result.objects = detail::winners_of(std::move(hypotheses), at.scene, surfaces_,
-                                                options.min_probability, of_cell, team);
+            result.objects = detail::winners_of(
+                std::move(hypotheses), at.scene, surfaces_, options.min_probability,
+                [&](found_object& h) { recognize(at.scene, h); }, of_cell, team);
             detail::settle(result.objects, at.scene, surfaces_, options.divergence, team);
             std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
             for (std::size_t i = 0; i < at.points.size(); ++i)

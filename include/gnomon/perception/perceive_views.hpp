@@ -173,11 +173,11 @@ template <class R, execution X = sequential, class Proj = std::identity>
     if (cells.size() >= least) {
         const segments groups = detail::object_groups(
             cells, options, result.ground ? result.ground->normal : options.up, team);
-        const auto seen = detail::seen_groups(cells, groups, least, options, result.ground, team);
+        auto seen = detail::seen_groups(cells, groups, least, options, result.ground, team);
         std::int32_t parts = 0;
         for (std::size_t g = 0; g < seen.size(); ++g) {
             if (!seen[g].as_view) continue;
-            result.views.push_back(*seen[g].as_view);
+            result.views.push_back(*std::move(seen[g].as_view));
             for (part& p : result.views.back().parts) p.segment += parts;
             for (std::size_t i = 0; i < groups[g].size(); ++i) {
                 const point_index c = groups[g][i];

@@ -33,6 +33,7 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/perception/detail/object_groups.hpp>
 #include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/view.hpp>
 #include <gnomon/recognition/views_of.hpp>

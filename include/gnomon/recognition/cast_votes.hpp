@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
@@ -77,7 +78,7 @@ class cast_votes {
     /// @param x, y     of the object's frame on the ground [m]
     /// @param heading  of the object [rad]
     void add(std::size_t object, double x, double y, double heading, double weight) {
-        votes_[object].push_back({x, y, heading, weight, parts_ - 1, std::floor(x / reach())});
+        votes_[object].push_back({x, y, heading, weight, parts_ - 1, std::floor(x / farthest())});
     }
 
     /// The sum of the votes for an object at a pose in the scan, at most one of each part; 0 for an
@@ -96,8 +97,8 @@ class cast_votes {
     /// The places at which most votes agree.
     /// @param run  `sequential{}` or `threads{n}`; the result does not depend on it
     /// @return of each object those of most votes first
-    /// Complexity: O(v (w + p)) for the v votes of each object, w of which are near one of them,
-    /// and p parts.
+    /// Complexity: O(v (log v + w + p)) for the v votes of each object, w of which are near one of
+    /// them, and p parts.
     template <execution X = sequential>
     [[nodiscard]] std::vector<object_place> places(const X& run = {}) const {
         std::vector<std::vector<object_place>> of_object(votes_.size());
@@ -111,13 +112,13 @@ class cast_votes {
     struct vote {
         double x, y, heading, weight;
         std::uint32_t part;
-        double strip;  // along y, as wide as votes reach: its number
+        double strip;  // the number of the strip along y that it is in, x / farthest()
     };
 
     static constexpr double most_deviations = 3.0;  // performance only: of votes that agree
 
-    /// Votes that agree are not farther from each other [m].
-    [[nodiscard]] double reach() const {
+    /// The largest distance of two votes that agree [m].
+    [[nodiscard]] double farthest() const {
         constexpr double rounding = 1e-9;  // numerical: of distances
         return (1.0 + rounding) * most_deviations * options_.reach;
     }
@@ -173,9 +174,13 @@ class cast_votes {
         std::vector<std::pair<double, std::size_t>> sums;
         for (std::size_t i = 0; i < votes.size(); ++i) {
             const vote& own = votes[i];
-            for (const double strip : {own.strip - 1.0, own.strip, own.strip + 1.0})
-                add_votes({first_from(strip, own.y - reach()), first_from(strip, own.y + reach())},
+            const std::array strips{own.strip - 1.0, own.strip, own.strip + 1.0};
+            for (std::size_t k = 0; k < strips.size(); ++k) {
+                if (k > 0 && strips[k] == strips[k - 1]) continue;  // numbers above 2^53
+                add_votes({first_from(strips[k], own.y - farthest()),
+                           first_from(strips[k], own.y + farthest())},
                           own, of_part);
+            }
             sums.emplace_back(-taken_sum(of_part), i);
         }
         std::sort(sums.begin(), sums.end());

@@ -52,6 +52,12 @@ struct sample_list {
     double reach = -1.0;  ///< all compatible samples up to this distance from there are listed
 };
 
+/// The canonical distance of some samples only.
+template <class Accepts>
+struct distance_of_some : canonical_metric {
+    Accepts accepts;  ///< (i): whether sample i may be found
+};
+
 /// A surface that points are aligned to.
 template <class Normals>
 class matched_surface {
@@ -125,7 +131,7 @@ class matched_surface {
             return is_unit(n) && is_compatible(n, ray, own);
         };
         search_tree(samples_.tree(), x, {.k = list.of.size(), .squared_radius = radius * radius},
-                    found, canonical_metric{}, is_wanted);
+                    found, distance_of_some{{}, is_wanted});
         list.searched = x;
         list.count = found.size();
         list.reach = radius;

@@ -44,24 +44,17 @@ struct tree_question {
     const place_set* among = nullptr;  // only these points are found; all, if there is no set
 };
 
-/// Every point may be a neighbor.
-struct any_point {
-    [[nodiscard]] constexpr bool operator()(point_index) const { return true; }
-};
-
 /// One search. Keeps the best candidates in `found`, which finish() puts into canonical order.
-/// @tparam Accepts  (i): whether point i may be a neighbor; tested where it is near enough
-template <class Metric, class Found, class Accepts = any_point>
+template <class Metric, class Found>
 class tree_query {
   public:
     tree_query(const leaf_tree& tree, const Eigen::Vector3d& p, const tree_question& question,
-               const Metric& metric, Found& found, const Accepts& accepts = {})
+               const Metric& metric, Found& found)
         : tree_(tree),
           at_{p[0], p[1], p[2]},
           question_(question),
           metric_(metric),
           found_(found),
-          accepts_(accepts),
           most_(question.ties == tie_rule::all && question.k <= tree.size() ? 2 * question.k
                                                                             : question.k),
           // Candidates are collected up to this number, then the farthest are dropped in linear
@@ -161,12 +154,16 @@ class tree_query {
             if (i == question_.except) continue;
             if (question_.among != nullptr && !question_.among->contains(begin + l)) continue;
             const neighbor q{squared[l], i};
-            const bool has_room = most_ > few || found_.size() < most_;
-            if ((!has_room && !(q < found_.back())) || !accepts_(i)) continue;
-            if (has_room)
+            if constexpr (requires { metric_.accepts(i); }) {  // a metric of some points only
+                const bool is_near = most_ > few || found_.size() < most_ || q < found_.back();
+                if (!is_near || !metric_.accepts(i)) continue;
+            }
+            if (most_ > few || found_.size() < most_)
                 found_.push_back(q);
-            else
+            else if (q < found_.back())
                 found_.back() = q;
+            else
+                continue;
             if (most_ <= few) put_last_in_order();
         }
         if (found_.size() >= (most_ > few ? full_ : most_)) drop_farthest();
@@ -216,7 +213,6 @@ class tree_query {
     const tree_question& question_;
     const Metric& metric_;
     Found& found_;
-    Accepts accepts_;
     std::size_t most_, full_;
     double shrink_;
     double limit_;    // squared; candidates farther than that are not wanted [m^2]
@@ -227,11 +223,10 @@ class tree_query {
 
 /// Replaces the content of `found` by the answer, in canonical order. O(log n + k log k) on average
 /// for the k that are found. Precondition: p is finite.
-template <class Metric = canonical_metric, class Allocator, class Accepts = any_point>
+template <class Metric = canonical_metric, class Allocator>
 void search_tree(const leaf_tree& tree, const Eigen::Vector3d& p, const tree_question& question,
-                 std::vector<neighbor, Allocator>& found, const Metric& metric = {},
-                 const Accepts& accepts = {}) {
-    tree_query(tree, p, question, metric, found, accepts)();
+                 std::vector<neighbor, Allocator>& found, const Metric& metric = {}) {
+    tree_query(tree, p, question, metric, found)();
 }
 
 /// The same in no order.

@@ -25,15 +25,15 @@ namespace gnomon::recognition::detail {
 /// Round by round: what is found in one takes its cells, which no longer count against the others
 /// in the next, as those of a chair do against the table above its seat.
 /// @param min_probability  of objects that are found, but at least scene_evidence::worth
+/// @param recognize  (h): corrects the probability of a hypothesis by a recognizer, which only
+///                   makes it less: called for those that would be found without it
 /// @param of_cell  gets the numbers of the winners whose surface the cells are on
 /// @return the most probable one first
 /// Complexity: O(r h) verifications for r rounds and h hypotheses.
-[[nodiscard]] inline std::vector<found_object> winners_of(std::vector<found_object> hypotheses,
-                                                          const scene_evidence& scene,
-                                                          std::span<const surface_model> surfaces,
-                                                          double min_probability,
-                                                          std::vector<std::int32_t>& of_cell,
-                                                          const auto& run) {
+[[nodiscard]] inline std::vector<found_object> winners_of(
+    std::vector<found_object> hypotheses, const scene_evidence& scene,
+    std::span<const surface_model> surfaces, double min_probability, const auto& recognize,
+    std::vector<std::int32_t>& of_cell, const auto& run) {
     constexpr double own_share = 0.5;  // chosen before any room was seen: the larger part
     const double least = std::max(min_probability, scene_evidence::worth);
     const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
@@ -41,6 +41,11 @@ namespace gnomon::recognition::detail {
     std::vector<found_object> found;
     while (true) {
         const std::size_t before = found.size();
+        run(hypotheses.size(), [&](std::size_t i) {
+            found_object& h = hypotheses[i];
+            const bool is_recognized = h.log_recognized < 0.0;
+            if (h.probability >= least && !is_recognized) recognize(h);
+        });
         std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
         std::vector<found_object> others;
         for (found_object& h : hypotheses) {

@@ -62,11 +62,11 @@ template <execution X>
 /// What is seen of a group of cells.
 struct seen_group {
     segments surfaces;
-    std::optional<view> as_view;  ///< none of too few parts
+    std::optional<view> as_view;  ///< none if the group has too few parts
 };
 
-/// What is seen of those of at least `least` cells. Most groups are too small to share: each is one
-/// task.
+/// What is seen of the groups of at least `least` cells. Each is one task, since most are too small
+/// to be shared by threads, but a single one is shared.
 /// @param groups  the largest one first
 [[nodiscard]] std::vector<seen_group> seen_groups(const voxel_grid::means& cells,
                                                   const segments& groups, std::size_t least,
@@ -76,16 +76,20 @@ struct seen_group {
     std::size_t large = 0;
     while (large < groups.size() && groups[large].size() >= least) ++large;
     std::vector<seen_group> seen(large);
-    run(large, [&](std::size_t g) {
+    const auto see = [&](std::size_t g, const auto& inner) {
         const subset_view group(cells, groups[g]);
-        auto found = surfaces_in(group, options, sequential{});
+        auto found = surfaces_in(group, options, inner);
         auto views = views_of(group, found.surface, found.surfaces,
                               {.gap = infinite_gap,
                                .min_parts = std::max<std::size_t>(1, options.min_parts),
                                .ground = ground});
         seen[g].surfaces = std::move(found.surfaces);
         if (!views.empty()) seen[g].as_view = std::move(views.front());
-    });
+    };
+    if (large == 1)
+        see(0, run);
+    else
+        run(large, [&](std::size_t g) { see(g, sequential{}); });
     return seen;
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,6 +53,7 @@ class scene_evidence {
     /// The probability below which a hypothesis is neither improved nor recognized, and not found.
     static constexpr double worth = 0.05;  // chosen: a tenth of the one that is usually found
 
+    /// Keeps references to cells and mixed.
     scene_evidence(const voxel_grid::means& cells, visibility seen, cast_votes votes,
                    const noise_curve& noise, const plane& ground, const auto& run,
                    const mixed_cells* mixed = nullptr)
@@ -87,7 +87,7 @@ class scene_evidence {
     /// How much of a scan and of a model is compared; performance only.
     struct effort {
         std::size_t cells;    ///< that are aligned
-        bool with_all;        ///< samples of the model, or with the coarse ones
+        bool all_samples;     ///< of the model, or the coarse ones, with which these are aligned
         int iterations;       ///< of an alignment
         std::size_t samples;  ///< that are verified
     };
@@ -217,7 +217,7 @@ class scene_evidence {
         const bool is_enough = inside.size() >= fewest;
         if (!is_enough && !is_refused(h.evidence, 0)) return h;
         if (!is_enough) return std::nullopt;
-        const auto& samples = much.with_all ? model.all() : model.coarse();
+        const auto& samples = much.all_samples ? model.all() : model.coarse();
         h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
                                        {.noise = noise_,
                                         .on_ground = true,

@@ -62,11 +62,12 @@ namespace gnomon::recognition::detail {
     });
 }
 
-/// Whether a beam mixed any of the points of a cell: tested when it is needed, which is for the few
-/// cells of objects that were found.
+/// Whether a beam mixed any of the points of a cell: tested each time that it is needed, which is
+/// for the few cells near objects that were found or are verified.
 class mixed_cells {
   public:
-    /// @param chosen      the points of a scan that are in cells
+    /// Precondition: each of the chosen points is in a cell.
+    /// @param chosen      some points of a scan
     /// @param cells       of these
     /// @param divergence  full angle of the beams
     /// @param noise       along the rays
