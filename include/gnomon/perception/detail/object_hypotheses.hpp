@@ -72,7 +72,7 @@ namespace gnomon::recognition::detail {
 }
 
 /// A hypothesis that was aligned carefully, improved. Starts from which a rough alignment returns
-/// to its pose are left out (performance only).
+/// to its pose are left out, since a careful one mostly returns to it, too.
 [[nodiscard]] inline found_object improved_carefully(const scene_evidence& scene,
                                                      const found_object& careful,
                                                      const surface_model& model) {
