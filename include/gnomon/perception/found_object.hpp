@@ -32,8 +32,8 @@ struct find_objects_options {
     Eigen::Vector3d up{0.0, 0.0, 1.0};           ///< as there
     /// Full angle of the beams; 0 for narrow ones. Wide beams return points that are behind edges
     /// by up to half of their width, and points between two surfaces: poses then rest on the
-    /// others, where these determine them, and covariances include a shift of edges, by 2 % of the
-    /// width of a beam, else 20 %.
+    /// others, where these determine them, and covariances include a shift of edges, by 3.5 % of
+    /// the width of a beam, else 20 %.
     angle divergence = degrees(0.0);
     /// Of objects that are found, at least 0.05; formula: more probable than not.
     double min_probability = 0.5;

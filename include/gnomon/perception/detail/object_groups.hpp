@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
@@ -51,7 +52,9 @@ template <execution X>
     if (!(options.gap < infinite_gap)) return segments(std::vector<std::int32_t>(cells.size(), 0));
     const auto seen = surfaces_in(cells, options, run);
     if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
-    const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length, up);
+    const noise_curve noise = options.noise ? *options.noise : seen.noise.curve;
+    const auto left =
+        without_walls(cells, seen.surface, seen.surfaces, options.max_length, noise, up);
     const auto nearby =
         euclidean_clusters(subset_view(cells, left), {.radius = options.gap, .min_points = 1}, run);
     std::vector<std::int32_t> labels(cells.size(), unlabeled);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/scan.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/normals/plane_fit.hpp>
+#include <gnomon/normals/surfel.hpp>
+#include <gnomon/perception/detail/object_cells.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace rec = gnomon::recognition;
+
+namespace {
+
+/// Cells of a wall at x = 0, 4 m x 2 m, of a board in front of it that is in one surface with it,
+/// and of no surface in front of both.
+struct wall_with_board {
+    gnomon::voxel_grid::means cells;
+    std::vector<gnomon::surfel<gnomon::plane_fit>> surface;
+    std::vector<std::int32_t> labels;
+    std::vector<char> is_wall;
+
+    /// @param board  its distance from the wall [m]
+    /// @param width  of the wall [m]
+    explicit wall_with_board(double board, double width = 4.0) {
+        const auto add = [&](double x, double y, double z, std::int32_t label, bool of_wall) {
+            cells.points.emplace_back(x, y, z);
+            surface.emplace_back();
+            surface.back().normal = Eigen::Vector3d::UnitX();
+            labels.push_back(label);
+            is_wall.push_back(of_wall);
+        };
+        for (int i = 0; i <= 80; ++i)
+            for (int k = 0; k <= 40; ++k) add(0.0, width * i / 80.0, 0.05 * k, 0, true);
+        for (int i = 0; i < 10; ++i)
+            for (int k = 0; k < 10; ++k) add(board, 1.0 + 0.04 * i, 0.5 + 0.04 * k, 0, false);
+        add(0.008, 2.0, 1.0, gnomon::unlabeled, true);
+        add(board, 2.0, 1.0, gnomon::unlabeled, false);
+        cells.viewpoints = Eigen::Vector3d(3.0, 0.0, 1.0);
+    }
+    /// Whether what is left is the cells that are not of the wall.
+    [[nodiscard]] bool is_separated(double noise) const {
+        const auto left = rec::detail::without_walls(
+            cells, surface, gnomon::segments(std::vector<std::int32_t>(labels)), 2.2,
+            gnomon::constant_noise{noise}, Eigen::Vector3d::UnitZ());
+        std::vector<char> is_left(labels.size(), 0);
+        for (const gnomon::point_index i : left) is_left[i] = 1;
+        for (std::size_t i = 0; i < labels.size(); ++i)
+            if ((is_left[i] != 0) == (is_wall[i] != 0)) return false;
+        return true;
+    }
+};
+
+TEST(object_cells, what_is_in_one_surface_with_a_wall_is_left_unless_in_its_plane) {
+    EXPECT_TRUE(wall_with_board(0.03).is_separated(0.005));
+    // Nearer than three deviations of the noise it cannot be distinguished from the wall.
+    EXPECT_FALSE(wall_with_board(0.03).is_separated(0.015));
+    EXPECT_TRUE(wall_with_board(0.06).is_separated(0.015));
+    // Without noise a cell is wider.
+    EXPECT_TRUE(wall_with_board(0.02).is_separated(1e-6));
+}
+
+TEST(object_cells, short_surfaces_are_no_walls) {
+    EXPECT_FALSE(wall_with_board(0.03, 1.5).is_separated(0.005));
+}
+
+}  // namespace
