@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/scan.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/normals/plane_fit.hpp>
@@ -19,8 +19,8 @@ namespace rec = gnomon::recognition;
 
 namespace {
 
-/// Cells of a wall at x = 0, 4 m x 2 m, of a board in front of it that is in one surface with it,
-/// and of no surface in front of both.
+/// Cells of a wall at x = 0, 2 m high, and of a board in front of it that is in one surface with
+/// it; one cell of each is in no surface.
 struct wall_with_board {
     gnomon::voxel_grid::means cells;
     std::vector<gnomon::surfel<gnomon::plane_fit>> surface;
@@ -45,7 +45,7 @@ struct wall_with_board {
         add(board, 2.0, 1.0, gnomon::unlabeled, false);
         cells.viewpoints = Eigen::Vector3d(3.0, 0.0, 1.0);
     }
-    /// Whether what is left is the cells that are not of the wall.
+    /// Whether the board is left, and no cell of the wall.
     [[nodiscard]] bool is_separated(double noise) const {
         const auto left = rec::detail::without_walls(
             cells, surface, gnomon::segments(std::vector<std::int32_t>(labels)), 2.2,
@@ -63,7 +63,7 @@ TEST(object_cells, what_is_in_one_surface_with_a_wall_is_left_unless_in_its_plan
     // Nearer than three deviations of the noise it cannot be distinguished from the wall.
     EXPECT_FALSE(wall_with_board(0.03).is_separated(0.015));
     EXPECT_TRUE(wall_with_board(0.06).is_separated(0.015));
-    // Without noise a cell is wider.
+    // Without noise walls are even within 1 cm.
     EXPECT_TRUE(wall_with_board(0.02).is_separated(1e-6));
 }
 

@@ -73,9 +73,9 @@ struct perceive_views_options {
     /// In sparse scans a cell has as many neighbors as are within this distance in the median [m],
     /// but at least 10; chosen on furniture_models(), seed 7.
     double reach = 0.05;
-    /// The planes of surfaces that are longer [m] and not level are walls and belong to no view,
-    /// but points at more than three deviations of the noise from them do; chosen: the longest of
-    /// furniture_models() is 1.8 m.
+    /// Surfaces that are longer [m] and not level are walls. Points in their planes, within three
+    /// deviations of the noise, belong to no view; chosen: the longest of furniture_models() is
+    /// 1.8 m.
     double max_length = 2.2;
 
     /// @throws std::invalid_argument  if k is below 3, reach not positive, gap or max_length

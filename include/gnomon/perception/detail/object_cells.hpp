@@ -18,6 +18,7 @@
 #include <gnomon/features/segment_shape.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::recognition::detail {
@@ -45,19 +46,21 @@ namespace gnomon::recognition::detail {
     return std::min(k, std::max(least, static_cast<std::size_t>(within)));
 }
 
-/// The indices of points that are not of walls: farther than three deviations of the noise, and
-/// 1 cm, from the plane of each surface longer than `max_length`, or in another surface. The back
-/// of a chair at a wall may be in one surface with it, but not in its plane. Level surfaces, such
-/// as two tops of one height that touch, are no walls.
-/// @param noise  of the points, along their rays [m]
+/// The indices of points that are not of walls. Surfaces that are longer than `max_length` [m] and
+/// not level, as two tops of one height that touch are, have the planes of walls. Points of such a
+/// surface, or of no surface, are of a wall within three deviations of the noise, or 1 cm, of its
+/// plane: the back of a chair at a wall may be in one surface with it, but is not in its plane.
+/// @param surface  of the n points, a `normal_range`
+/// @param noise    of the points, along their rays [m]
+/// Complexity: O(n) for each wall.
 [[nodiscard]] inline std::vector<point_index> without_walls(const auto& points, const auto& surface,
                                                             const segments& parts,
                                                             double max_length,
                                                             const noise_curve& noise,
                                                             const Eigen::Vector3d& up) {
     constexpr double level = 0.9;  // chosen: cosine; within 26 degrees
-    // Chosen on rooms of seeds 1 to 40 with touching furniture: 3 of 5 mm, of 1 to 5 cm.
-    constexpr double deviations = 3.0, least = 0.01;  // the second: an edge of a cell [m]
+    using gnomon::detail::certain_deviations, gnomon::detail::flatness;
+    constexpr double narrowest = certain_deviations * flatness;  // [m]: as that of floors
     std::vector<plane> walls;
     std::vector<char> is_wall(parts.size(), 0);
     for (std::size_t s = 0; s < parts.size(); ++s) {
@@ -71,7 +74,7 @@ namespace gnomon::recognition::detail {
     const auto is_in_wall = [&](std::size_t i) {
         const double sigma =
             noise.along(gnomon::detail::difference(points.points[i], points.viewpoints[i]));
-        const double band = std::max(least, deviations * sigma);
+        const double band = std::max(narrowest, gnomon::detail::most_deviations * sigma);
         return std::any_of(walls.begin(), walls.end(), [&](const plane& w) {
             return std::abs(w.signed_distance(points.points[i])) <= band;
         });
@@ -79,8 +82,9 @@ namespace gnomon::recognition::detail {
     std::vector<point_index> left;
     for (std::size_t i = 0; i < parts.labels().size(); ++i) {
         const std::int32_t label = parts.labels()[i];
-        const bool may_be = label == unlabeled || is_wall[static_cast<std::size_t>(label)] != 0;
-        if (!may_be || !is_in_wall(i)) left.push_back(static_cast<point_index>(i));
+        const bool is_elsewhere =
+            label != unlabeled && is_wall[static_cast<std::size_t>(label)] == 0;
+        if (is_elsewhere || !is_in_wall(i)) left.push_back(static_cast<point_index>(i));
     }
     return left;
 }
