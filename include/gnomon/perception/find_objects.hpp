@@ -180,7 +180,7 @@ class object_finder {
                 h = detail::aligned_carefully(at.scene,
                                               detail::improved_roughly(at.scene, h, model), model);
                 recognize(at.scene, h);
-                h.aligned = at.scene.by_whole_beams(h.aligned, model, options.divergence);
+                h.aligned = at.scene.refined(h.aligned, model, options.divergence);
             });
         });
         return result;
@@ -224,7 +224,7 @@ class object_finder {
         if (options.divergence > degrees(0.0))
             mixed.emplace(points, kept, cells, options.divergence, noise, team, projection);
         const detail::scene_evidence scene(
-            cells, visibility(points, {.noise = noise}, team, projection),
+            cells, visibility(points, {.noise = noise}, team, projection), seen.groups.labels(),
             votes_.votes(seen.views, team), noise, *seen.ground, team, mixed ? &*mixed : nullptr);
         f(scene_of{kept, cells, scene});
         return seen;

@@ -134,8 +134,8 @@ namespace gnomon::recognition::detail {
     return some;
 }
 
-/// Moves objects that were found, each aligned carefully, to the poses that fit best, then, if
-/// beams have a width, to those of the points that whole beams hit. They are as probable as before.
+/// Moves objects that were found, each aligned carefully, to the poses that fit best, and refines
+/// these. They are as probable as before.
 /// @param divergence  full angle of the beams
 inline void settle(std::vector<found_object>& objects, const scene_evidence& scene,
                    std::span<const surface_model> models, angle divergence, const auto& run) {
@@ -143,7 +143,7 @@ inline void settle(std::vector<found_object>& objects, const scene_evidence& sce
         found_object& o = objects[i];
         const surface_model& model = models[o.object];
         found_object settled = improved_carefully(scene, o, model);
-        settled.aligned = scene.by_whole_beams(settled.aligned, model, divergence);
+        settled.aligned = scene.refined(settled.aligned, model, divergence);
         settled.log_recognized = o.log_recognized;
         settled.probability = o.probability;
         o = std::move(settled);

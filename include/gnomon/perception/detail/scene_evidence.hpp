@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +33,7 @@
 #include <gnomon/perception/detail/cells_of_object.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
+#include <gnomon/perception/detail/silhouette_fit.hpp>
 #include <gnomon/perception/detail/whole_beams.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
@@ -53,14 +55,16 @@ class scene_evidence {
     /// The probability below which a hypothesis is neither improved nor recognized, and not found.
     static constexpr double worth = 0.05;  // chosen: a tenth of the one that is usually found
 
-    /// Keeps references to cells and mixed.
-    scene_evidence(const voxel_grid::means& cells, visibility seen, cast_votes votes,
-                   const noise_curve& noise, const plane& ground, const auto& run,
-                   const mixed_cells* mixed = nullptr)
+    /// Keeps references to cells, groups and mixed.
+    /// @param groups  of the points that `seen` has the images of, as in perceive_views()
+    scene_evidence(const voxel_grid::means& cells, visibility seen,
+                   std::span<const std::int32_t> groups, cast_votes votes, const noise_curve& noise,
+                   const plane& ground, const auto& run, const mixed_cells* mixed = nullptr)
         : cells_(cells),
           index_(cells, run),
           surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
           seen_(std::move(seen)),
+          groups_(groups),
           votes_(std::move(votes)),
           noise_(noise),
           ground_(ground),
@@ -111,43 +115,15 @@ class scene_evidence {
                               });
     }
 
-    /// The alignment of an object that was found, by the cells that whole beams hit. Where these do
-    /// not determine the pose, or would move it by more than edges do, it stays, less certain.
-    /// @param divergence  full angle of the beams; the alignment that was found for 0
-    [[nodiscard]] alignment by_whole_beams(const alignment& found, const surface_model& model,
-                                           angle divergence) const {
-        using gnomon::detail::difference, gnomon::detail::direction_of, gnomon::detail::dot;
-        if (divergence == degrees(0.0)) return found;
-        // Shifts in widths of a beam: along the rays edges cause at most half of one; across them
-        // more than a little is another slat or leg.
-        constexpr double along = 0.5;     // formula: half of a beam
-        constexpr double across = 0.2;    // chosen on rooms of seeds 1 to 20, of .2 to .5
-        constexpr double unseen = 0.035;  // chosen on rooms of seeds 101 to 220, of .02 to .08
-        constexpr int rounds = 2;         // chosen: the cells change with the pose
-        const alignment_options how{
-            .noise = noise_, .on_ground = true, .max_distance = alignment_options{}.last_distance};
-        alignment settled = found;
-        double share = unseen, widest = 0.0;
-        for (int round = 0; round < rounds; ++round) {
-            const auto whole = whole_beams_at(cells_, index_, surface_, mixed_, model, settled.pose,
-                                              divergence, how.max_distance);
-            widest = whole.widest;
-            const auto next = alignment_of_cells(cells_, surface_, whole.points, careful.cells,
-                                                 model.all(), settled.pose, how);
-            const Eigen::Vector3d moved =
-                difference(next.pose.point_out(found.pose.point_in(found.center)), found.center);
-            const double ahead = dot(direction_of(whole.way), moved);
-            const double aside = std::sqrt(std::max(0.0, dot(moved, moved) - ahead * ahead));
-            if (!next.is_usable() || !(std::abs(ahead) < along * whole.widest) ||
-                !(aside < across * whole.widest)) {
-                settled = found;
-                share = across;
-                break;
-            }
-            settled = next;
-        }
-        add_shift_of_edges(settled, model, ground_.normal, share * widest);
-        return settled;
+    /// The alignment of an object that was found, by the cells that whole beams hit, and by its
+    /// silhouette.
+    /// @param divergence  full angle of the beams
+    [[nodiscard]] alignment refined(const alignment& found, const surface_model& model,
+                                    angle divergence) const {
+        const alignment whole = aligned_by_whole_beams(
+            found, model,
+            {cells_, index_, surface_, mixed_, noise_, ground_.normal, divergence, careful.cells});
+        return by_silhouette(whole, model, seen_, groups_, noise_, divergence, ground_.normal);
     }
 
     /// Corrects the probability of a hypothesis after the points on its surface were recognized;
@@ -241,6 +217,7 @@ class scene_evidence {
     spatial_index index_;
     std::vector<surfel<plane_fit>> surface_;
     visibility seen_;
+    std::span<const std::int32_t> groups_;
     cast_votes votes_;
     noise_curve noise_;
     plane ground_;
