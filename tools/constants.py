@@ -42,7 +42,10 @@ OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/objec
          "gnomon/perception/find_objects.hpp", "gnomon/perception/detail/object_hypotheses.hpp",
          "gnomon/perception/detail/object_competition.hpp", "gnomon/perception/detail/object_probability.hpp",
          "gnomon/perception/detail/observed_space.hpp", "gnomon/perception/detail/pose_search.hpp",
-         "gnomon/perception/detail/scene_evidence.hpp",
+         "gnomon/perception/detail/scene_evidence.hpp", "gnomon/perception/found_object.hpp",
+         "gnomon/perception/detail/image_of_surface.hpp", "gnomon/perception/detail/surface_drawing.hpp",
+         "gnomon/perception/detail/silhouette_rays.hpp", "gnomon/perception/detail/silhouette_fit.hpp",
+         "gnomon/perception/detail/ground_motions.hpp",
          "gnomon/perception/detail/whole_beams.hpp"}
 MAX_CHOSEN = 15
 

@@ -1263,7 +1263,7 @@ namespace detail {
 inline void require_hesse(const plane& p) {
     constexpr double rounding = 1e-6;  // numerical
     require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
-            "the normal of a plane, or the direction upwards, must be of unit length");
+            "a plane, or a direction upwards, needs a normal of unit length and a finite offset");
 }
 
 }  // namespace detail
@@ -11757,6 +11757,12 @@ concept has_aspect_ratio = requires(const T& estimate) {
 struct repair_anisotropic_options {
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which a neighborhood counts as anisotropic
     int doublings = 1;              ///< how often k may be doubled; the thesis does so once
+
+    /// @throws std::invalid_argument  if one of them is negative or NaN
+    void require_valid() const {
+        detail::require(min_aspect_ratio >= 0.0 && doublings >= 0,
+                        "repair_anisotropic: an option must not be negative or NaN");
+    }
 };
 
 /// Estimates again, from doubled k, every finite point whose neighborhood is anisotropic. Orient
@@ -11766,7 +11772,8 @@ struct repair_anisotropic_options {
 /// @param policy   the neighborhood that the surface was estimated from
 /// @param surface  what estimate_normals returned for these; changed in place
 /// @return the number of points that were estimated again
-/// @throws std::invalid_argument  if surface and points differ in size, or k is 0
+/// @throws std::invalid_argument  if surface and points differ in size, k is 0, or for options that
+///                                are not valid
 /// Complexity: one search and one estimate for each anisotropic point and doubling, and the index
 /// if `points` is none.
 template <class R, estimator E, execution X = sequential, class Proj = std::identity>
@@ -11776,6 +11783,7 @@ std::size_t repair_anisotropic(const R& points, const knn& policy,
                                const repair_anisotropic_options& options = {}, const X& run = {},
                                Proj projection = {}) {
     policy.require_valid();
+    options.require_valid();
     detail::require(surface.size() == position_view<R, Proj>(points, projection).size(),
                     "repair_anisotropic: surface and points differ in size");
     const auto is_isotropic = [&](std::size_t i) {
@@ -11785,7 +11793,7 @@ std::size_t repair_anisotropic(const R& points, const knn& policy,
     detail::scratch<std::size_t> flagged;
     for (std::size_t i = 0; i < surface.size(); ++i)
         if (!is_isotropic(i)) flagged.push_back(i);
-    if (options.doublings <= 0 || flagged.empty()) return 0;
+    if (options.doublings == 0 || flagged.empty()) return 0;
 
     const std::size_t repaired = flagged.size();
     const auto& index = detail::index_of(points, run, projection);
@@ -17751,6 +17759,19 @@ class range_image {
         std::array<Eigen::Vector3d, detail::slim_pack::size> to;
         to.fill(detail::difference(p, viewpoint_));
         return axes_.cells_towards(to, width_, height_)[0];
+    }
+
+    /// The unit vector from the view point through the middle of a pixel. (A template, as above.)
+    template <class Pixel = pixel>
+    [[nodiscard]] Eigen::Vector3d direction_of(const Pixel& at) const {
+        const auto turn = [](std::size_t i, std::size_t n) {  // of a half turn, from -1/2 to 1/2
+            return ((static_cast<double>(i) + 0.5) / static_cast<double>(n) - 0.5) *
+                   std::numbers::pi;
+        };
+        const double azimuth = 2.0 * turn(at.azimuth, width_);
+        const double elevation = turn(at.elevation, height_), flat = std::cos(elevation);
+        return detail::combined(flat * std::cos(azimuth), axes_.x, flat * std::sin(azimuth),
+                                axes_.y, std::sin(elevation), axes_.z);
     }
 
     /// The distance of the nearest point in a pixel [m], or `nothing`.
@@ -27006,12 +27027,13 @@ struct alignment {
     /// Of turns about three axes [rad], then of shifts along them [m].
     using covariance_matrix = detail::parameter_covariance<6>;
     /// Of directions that the points do not determine [m]; a turn has it over the root mean square
-    /// distance of the points from `center`.
+    /// distance from `center` of the points of which that is the centroid.
     static constexpr double unknown_deviation = 1e3;  // numerical: more than any scene [m]
 
     outcome status = outcome::too_few_points;  ///< of this alignment
     rigid_motion pose;                         ///< of the points' frame in that of the surface
-    /// Of the turns: the centroid of the points, in the frame of the surface [m].
+    /// Of the turns: the centroid of the points that were near the surface at the start, in the
+    /// frame of the surface [m].
     Eigen::Vector3d center{0.0, 0.0, 0.0};
     /// Of a small motion in the frame of the surface, which leads from the estimated pose to the
     /// true one: a turn about `center`, as a rotation vector, and a shift. Zero in the rows and
@@ -27091,11 +27113,11 @@ struct alignment {
 // -------- gnomon/features/detail/movable_cloud.hpp -----------------------------------------------
 
 /// @file
-/// The points that `align_to_surface` moves, relative to their centroid.
+/// The points that `align_to_surface` moves, relative to the centroid of those near the surface.
 
 namespace gnomon::detail {
 
-/// A point to align, relative to the centroid of all, in its own frame.
+/// A point to align, relative to the centroid, in its own frame.
 struct movable_point {
     Eigen::Vector3d at;
     Eigen::Vector3d ray;     ///< unit vector from its view point; zero where that is unknown
@@ -27103,25 +27125,41 @@ struct movable_point {
     double variance;         ///< of its noise, along the ray or in all directions [m^2]
 };
 
+/// Whether a point is nearer to the box of a surface than its diagonal and a distance: others are
+/// too far off to correspond to a sample.
+/// @param x  in the frame of the surface [m]
+[[nodiscard]] inline bool is_near_surface(const spatial_index& surface, const Eigen::Vector3d& x,
+                                          double distance) {
+    if (surface.tree().size() == 0) return false;
+    const leaf_box& box = surface.tree().box();
+    const std::array<double, 3> at{x[0], x[1], x[2]};
+    const double reach = distance + std::sqrt(box.squared_diagonal());
+    return box.squared_distance_to({at, at}) <= reach * reach;
+}
+
 /// The finite ones of the points to align.
 struct movable_cloud {
     scratch<movable_point> points;
-    scratch<movable_point> sample;            ///< some 400 of more than twice as many points
-    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< [m]
-    double lever = 1.0;                       ///< root mean square distance from it [m]
-    double largest = 0.0;                     ///< coordinate [m]
+    scratch<movable_point> sample;  ///< some 400 of more than twice as many points
+    /// Of the points near the surface at the start, or else of all: those far off do not count, as
+    /// they determine nothing [m].
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};
+    double lever = 1.0;    ///< their root mean square distance from it [m]
+    double largest = 0.0;  ///< coordinate [m]
 
     /// @param normals  (i): the normal of point i, zero or not finite if it is missing
+    /// @param is_near  (x): whether a point is near the surface at the start
     template <class R, class Proj>
-    movable_cloud(const R& range, auto&& normals, const noise_curve& noise, Proj projection) {
+    movable_cloud(const R& range, auto&& normals, const noise_curve& noise, const auto& is_near,
+                  Proj projection) {
         const position_view<R, Proj> p(range, std::move(projection));
         with_table_of(range, [&](const viewpoint_table& viewpoints) {
             points.reserve(p.size());
-            Eigen::Vector3d first{0.0, 0.0, 0.0}, sum = first;
+            const Eigen::Vector3d first = first_of(p, is_near);
+            scratch<point_index> near;
             for (std::size_t i = 0; i < p.size(); ++i) {
                 const Eigen::Vector3d x = p[i];
                 if (!is_finite(x)) continue;
-                if (points.empty()) first = x;
                 const Eigen::Vector3d v = viewpoints[i], n = normals(i);
                 const Eigen::Vector3d way = is_finite(v) ? difference(x, v) : x;
                 movable_point m{
@@ -27129,20 +27167,29 @@ struct movable_cloud {
                 if (!viewpoints.empty() && is_finite(v) && has_length(way))
                     m.ray = direction_of(way);
                 if (all_finite(n) && has_length(n)) m.normal = direction_of(n);
-                sum = combined(1.0, sum, 1.0, m.at);
-                for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(x[a]));
+                if (is_near(x)) near.push_back(static_cast<point_index>(points.size()));
                 points.push_back(m);
             }
             if (points.empty()) return;
-            const double n = static_cast<double>(points.size());
-            const Eigen::Vector3d mean = scaled(1.0 / n, sum);
-            centroid = combined(1.0, first, 1.0, mean);
-            double squares = 0.0;
-            for (movable_point& m : points) {
-                m.at = difference(m.at, mean);
-                squares += dot(m.at, m.at) / n;
+            const bool all = near.empty();
+            const std::size_t counted = all ? points.size() : near.size();
+            const auto at = [&](std::size_t k) -> const Eigen::Vector3d& {
+                return points[all ? k : near[k]].at;
+            };
+            Eigen::Vector3d sum(0.0, 0.0, 0.0);
+            for (std::size_t k = 0; k < counted; ++k) {
+                sum = combined(1.0, sum, 1.0, at(k));
+                for (int a = 0; a < 3; ++a)
+                    largest = std::max(largest, std::abs(first[a] + at(k)[a]));
             }
+            const double share = 1.0 / static_cast<double>(counted);
+            const Eigen::Vector3d mean = scaled(share, sum);
+            centroid = combined(1.0, first, 1.0, mean);
+            for (movable_point& m : points) m.at = difference(m.at, mean);
+            double squares = 0.0;
+            for (std::size_t k = 0; k < counted; ++k) squares += share * dot(at(k), at(k));
             if (squares > 0.0) lever = std::sqrt(squares);
+            const double n = static_cast<double>(points.size());
             constexpr double enough = 400.0;  // performance only
             random_stream random(0);
             if (n > 2.0 * enough) {
@@ -27150,6 +27197,20 @@ struct movable_cloud {
                     if (random.uniform() * n < enough) sample.push_back(m);
             }
         });
+    }
+
+  private:
+    /// The first point near the surface, or else the first finite one: the others are stored
+    /// relative to it.
+    [[nodiscard]] static Eigen::Vector3d first_of(const auto& points, const auto& is_near) {
+        std::optional<Eigen::Vector3d> first;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Eigen::Vector3d x = points[i];
+            if (!is_finite(x)) continue;
+            if (is_near(x)) return x;
+            if (!first) first = x;
+        }
+        return first.value_or(Eigen::Vector3d(0.0, 0.0, 0.0));
     }
 };
 
@@ -27760,7 +27821,10 @@ template <class R, class S, class Normals, execution X, class Proj>
     const auto& team = staying(run);
     constexpr std::identity as_it_is;  // named: g++ 13 warns of a reference to a temporary
     const auto& index = index_of(surface, team, as_it_is);
-    const movable_cloud cloud(points, normals, options.noise, projection);
+    const auto is_near = [&](const Eigen::Vector3d& x) {
+        return is_near_surface(index, start.point_out(x), options.max_distance);
+    };
+    const movable_cloud cloud(points, normals, options.noise, is_near, projection);
     alignment result;
     result.points = cloud.points.size();
     result.pose = start;
@@ -31034,8 +31098,10 @@ struct perception {
         if (leave_out) detail::require_valid(*leave_out);
         if constexpr (is_on_cells)
             detail::require_valid(segmentation.planes);
-        else
+        else {
             detail::require_valid(segmentation.surfaces);
+            segmentation.repair.require_valid();
+        }
     }
 
     using result_type = perception_result<estimate_t<Estimator>>;  ///< what is returned

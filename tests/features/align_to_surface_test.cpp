@@ -302,6 +302,31 @@ TEST(align_to_surface, leaves_out_points_without_coordinates_and_outliers) {
     EXPECT_LT(a.inliers, 850u);
 }
 
+// Points far off determine nothing, and hide nothing that the others determine.
+TEST(align_to_surface, is_as_certain_with_points_far_off) {
+    const auto& [samples, index] = the_chair();
+    const auto alone = measure(800, 0.003, 6, sensor_at(1.5, -1.0, 1.2));
+    const auto align = [&](const auto& points) {
+        return gnomon::align_to_surface(gnomon::with_viewpoint(points, {0, 0, 0}), index, samples,
+                                        displaced(alone.truth, 0.03, 0.02, false, 6),
+                                        {.noise = gnomon::constant_noise{0.003}});
+    };
+    const auto expected = align(alone.points);
+    ASSERT_EQ(expected.status, outcome::converged);
+    for (const double distance : {20.0, 60.0, 1e3, 1e30}) {
+        auto points = alone.points;
+        for (int i = 0; i < (distance < 1e3 ? 100 : 1); ++i)
+            points.insert(points.begin(), Eigen::Vector3d(distance, 0.02 * i, -0.01 * i));
+        const auto a = align(points);
+        EXPECT_EQ(a.status, outcome::converged) << distance;
+        EXPECT_LT((a.pose.position - expected.pose.position).norm(), 1e-3) << distance;
+        EXPECT_LT((a.center - expected.center).norm(), 1e-3) << distance;
+        EXPECT_NEAR(a.covariance.trace(), expected.covariance.trace(),
+                    0.1 * expected.covariance.trace())
+            << distance;
+    }
+}
+
 // Points that are near the surface at the start only have no part in rms, inliers and covariance.
 TEST(align_to_surface, forgets_points_that_were_near_the_surface_before) {
     const auto& [samples, index] = the_chair();

@@ -82,6 +82,17 @@ TEST(anisotropy, doubles_even_the_largest_k) {
     EXPECT_EQ(surface[0].neighbors, 49u);
 }
 
+TEST(anisotropy, refuses_bad_options) {
+    const auto points = clouds::sheet(50, 1);
+    auto surface = gnomon::estimate_normals(points, knn{5}, plane_pca{});
+    for (const gnomon::repair_anisotropic_options& bad :
+         {gnomon::repair_anisotropic_options{.min_aspect_ratio = NAN},
+          gnomon::repair_anisotropic_options{.min_aspect_ratio = -0.1},
+          gnomon::repair_anisotropic_options{.doublings = -1}})
+        EXPECT_THROW(gnomon::repair_anisotropic(points, knn{5}, surface, plane_pca{}, bad),
+                     std::invalid_argument);
+}
+
 TEST(anisotropy, refuses_k_zero) {
     const auto points = clouds::sheet(50, 1);
     auto surface = gnomon::estimate_normals(points, knn{5}, plane_pca{});

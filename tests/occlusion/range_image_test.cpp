@@ -249,6 +249,24 @@ TEST(range_image, rejects_invalid_formats_and_view_points) {
     EXPECT_NO_THROW(make({}, origin));
 }
 
+/// The direction of a pixel is seen in it, and is of unit length.
+TEST(range_image, directions_of_pixels_are_seen_there) {
+    const std::vector<Eigen::Vector3d> points{{1.0, 2.0, 3.0}, {-2.0, 1.0, 0.5}};
+    for (const Eigen::Vector3d& pole : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 2, -1)}) {
+        const Eigen::Vector3d from(0.5, -1.0, 2.0);
+        const gnomon::range_image image(points, from, {24, 12, pole});
+        for (std::size_t e = 0; e < 12; ++e) {
+            for (std::size_t a = 0; a < 24; ++a) {
+                const Eigen::Vector3d ray = image.direction_of({a, e});
+                EXPECT_NEAR(ray.norm(), 1.0, 1e-12);
+                const auto at = image.pixel_of(Eigen::Vector3d(from + 2.0 * ray));
+                EXPECT_EQ(at.azimuth, a);
+                EXPECT_EQ(at.elevation, e);
+            }
+        }
+    }
+}
+
 /// Where `may_show` is false, no pixel within two rows of the position has a point.
 TEST(range_image, may_show_is_conservative) {
     gnomon::random_stream random(5);

@@ -208,9 +208,85 @@ TEST(find_objects, of_no_points_or_no_ground_are_none) {
     EXPECT_TRUE(rec::object_finder{}(whole.scan, {.noise = find_noise}).objects.empty());
 }
 
+/// A scan without view points is one from the origin.
+TEST(find_objects, is_seen_from_the_origin_without_view_points) {
+    small_room room;
+    const Eigen::Vector3d sensor(0.0, 0.0, 1.2);
+    for (auto& p : room.scan.points) p -= sensor;
+    room.scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
+    const auto found = finder_of_two()(room.scan, {.noise = find_noise});
+    expect_chair_and_table(found, room, {Eigen::Matrix3d::Identity(), -sensor});
+    room.scan.viewpoints = gnomon::viewpoint_table();
+    const auto again = finder_of_two()(room.scan, {.noise = find_noise});
+    ASSERT_EQ(again.objects.size(), found.objects.size());
+    for (std::size_t i = 0; i < found.objects.size(); ++i) {
+        EXPECT_EQ(again.objects[i].aligned.pose.position, found.objects[i].aligned.pose.position);
+        EXPECT_EQ(again.objects[i].aligned.covariance, found.objects[i].aligned.covariance);
+    }
+}
+
+/// An object of which only the surface is known is found by that.
+TEST(find_objects, finds_an_object_without_views) {
+    const auto models = chair_and_table();
+    rec::object_finder finder = finder_of_two();
+    const auto samples = sim::sample_surface(sim::furniture_models()[8], {.spacing = 0.02});
+    const std::size_t number = finder.add(
+        "round table",
+        rec::surface_model(samples, samples, 0.02, std::nullopt, &sim::surface_sample::position));
+    sim::scene world;
+    world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
+                     sim::at(2.0, 0.0, 0.0));
+    const auto where = gnomon::rigid_motion::on_ground(2.2, 0.3, degrees(0));
+    (void)sim::add(world, sim::furniture_models()[8], where);
+    const auto truth =
+        sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
+                      sim::scanner{}, {.sigma = 0.005, .seed = 5});
+    const auto found = finder(truth.scan, {.noise = find_noise});
+    ASSERT_EQ(found.objects.size(), 1u);
+    EXPECT_EQ(found.objects[0].object, number);
+    EXPECT_LT((found.objects[0].aligned.pose.position - where.position).norm(), 0.02);
+}
+
+/// A view that is refused is stored nowhere: the finder goes on as before.
+TEST(find_objects, forgets_a_view_that_it_refused) {
+    rec::object_finder finder = finder_of_two();
+    const auto shot = sim::simulate_object_view(chair_and_table()[0], 20, {.seed = 3});
+    auto seen = rec::perceive_views(
+        shot.truth.scan,
+        {.ground = gnomon::plane{}, .noise = find_noise, .gap = rec::infinite_gap});
+    ASSERT_FALSE(seen.views.empty());
+    rec::view& bad = seen.views[0];
+    bad.ground->normal *= 2.0;
+    EXPECT_THROW(finder.learn(bad, shot.pose, 0), std::invalid_argument);
+    bad.ground = gnomon::plane{};
+    bad.parts.at(0).shape.frame.box_center.x() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(finder.learn(bad, shot.pose, 0), std::invalid_argument);
+    const small_room room;
+    expect_chair_and_table(finder(room.scan, {.noise = find_noise}), room);
+}
+
+/// What no points were aligned with is anywhere.
+TEST(find_objects, is_uncertain_where_nothing_is) {
+    const std::vector<rec::object_place> places{
+        {0, gnomon::rigid_motion::on_ground(0.0, 5.0, degrees(0)), 0.0}};
+    for (const auto& scan : {small_room().scan, gnomon::scan{}}) {
+        for (const double width : {0.0, 0.01}) {
+            const auto lost = finder_of_two().verify(
+                scan, places, {.noise = find_noise, .divergence = gnomon::radians(width)});
+            EXPECT_GT(lost.at(0).aligned.covariance(3, 3), 1e5);
+            EXPECT_GT(lost.at(0).aligned.covariance(2, 2), 1e5);
+        }
+    }
+}
+
 TEST(find_objects, refuses_bad_arguments) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     rec::object_finder finder;
+    EXPECT_THROW(finder.fit(), std::invalid_argument);
+    for (int i = 0; i < 2; ++i) {  // two variants of one name are one class
+        const std::size_t variant = finder.add("chair", finder_of_two().surfaces()[0]);
+        finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {}, variant);
+    }
     EXPECT_THROW(finder.fit(), std::invalid_argument);
     finder = finder_of_two();
     finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {},

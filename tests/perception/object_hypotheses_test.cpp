@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -59,16 +60,26 @@ class chair_in_scene {
         for (std::size_t i = 0; i < scan.size(); ++i)
             if (scan.points[i].z() > 0.05) above.push_back(static_cast<gnomon::point_index>(i));
         cells_ = gnomon::average_voxels(gnomon::subset_view(scan, above), {.edge = 0.01});
+        points_ = scan.points;
+        groups_.assign(scan.size(), -1);
+        for (const gnomon::point_index i : above) groups_[i] = 0;
         scene_.emplace(cells_, gnomon::visibility(scan, {.noise = scene_noise}),
+                       rec::detail::imaged_points{
+                           groups_, [this](gnomon::point_index i) { return points_[i]; }},
                        rec::cast_votes({}, 1), scene_noise, gnomon::plane{}, gnomon::sequential{});
     }
 
     [[nodiscard]] const rec::detail::scene_evidence& scene() const { return *scene_; }
     [[nodiscard]] const std::vector<rec::surface_model>& surfaces() const { return surfaces_; }
 
+    chair_in_scene(const chair_in_scene&) = delete;  // it refers to itself
+    chair_in_scene& operator=(const chair_in_scene&) = delete;
+
   private:
     std::vector<rec::surface_model> surfaces_;
     gnomon::voxel_grid::means cells_;
+    std::vector<std::int32_t> groups_;
+    std::vector<Eigen::Vector3d> points_;
     std::optional<rec::detail::scene_evidence> scene_;
 };
 

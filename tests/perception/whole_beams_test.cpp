@@ -113,7 +113,7 @@ TEST(whole_beams, shifts_of_edges_are_added_along_the_ground) {
     constexpr double shift = 0.002, half = 0.4;
     for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, 0.8)}) {
         gnomon::alignment found;
-        rec::detail::add_shift_of_edges(found, model, up, shift);
+        rec::detail::add_shift_on_ground(found, model, up, shift);
         const Eigen::Vector3d level = up.cross(Eigen::Vector3d(0, 1, 0)), side(0, 1, 0);
         const auto deviation = [&](int first, const Eigen::Vector3d& along) {
             const Eigen::Matrix3d block = found.covariance.block<3, 3>(first, first);
@@ -125,14 +125,14 @@ TEST(whole_beams, shifts_of_edges_are_added_along_the_ground) {
         EXPECT_NEAR(deviation(3, level), shift, 1e-9);
         EXPECT_NEAR(deviation(3, side), shift, 1e-9);
         const auto once = found.covariance;
-        rec::detail::add_shift_of_edges(found, model, up, shift);
+        rec::detail::add_shift_on_ground(found, model, up, shift);
         EXPECT_NEAR(found.covariance(4, 4), 2.0 * once(4, 4), 1e-12);
     }
     // Of a single sample nothing is infinite.
     const std::vector<sim::surface_sample> one(samples.begin(), samples.begin() + 1);
     const rec::surface_model point(one, one, 0.02, std::nullopt, &sim::surface_sample::position);
     gnomon::alignment found;
-    rec::detail::add_shift_of_edges(found, point, Eigen::Vector3d(0, 0, 1), shift);
+    rec::detail::add_shift_on_ground(found, point, Eigen::Vector3d(0, 0, 1), shift);
     EXPECT_NEAR(found.covariance(2, 2), std::pow(shift / 0.02, 2), 1e-12);
 }
 

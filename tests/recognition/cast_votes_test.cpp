@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Core>
@@ -90,6 +92,11 @@ TEST(cast_votes, are_on_the_ground) {
     ASSERT_EQ(places.size(), 1u);
     EXPECT_NEAR((places[0].pose.position - first.point_out({0.5, 0.25, 0.0})).norm(), 0.0, 1e-12);
     EXPECT_NEAR(places[0].votes, 0.9, 1e-12);
+}
+
+TEST(cast_votes, refuse_bad_options) {
+    for (const double bad : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW((void)rec::cast_votes({.reach = bad}, 1), std::invalid_argument);
 }
 
 TEST(cast_votes, are_none_of_no_parts) {

@@ -85,6 +85,14 @@ TEST(feature_vector, names_the_feature_that_needs_the_ground) {
         EXPECT_NO_THROW((void)rec::feature_vector(rec::invariant_features, p, v));
 }
 
+/// Heights above a ground whose normal is of another length would be of other units.
+TEST(feature_vector, refuses_a_ground_of_another_length) {
+    auto v = some_views::training().views.front();
+    v.ground->normal *= 2.0;
+    EXPECT_THROW((void)rec::feature_vector(rec::default_features, v.parts[0], v),
+                 std::invalid_argument);
+}
+
 TEST(feature_vector, names_the_feature_that_is_not_finite) {
     const auto& v = some_views::training().views.front();
     try {

@@ -78,6 +78,13 @@ TEST(surface_model, refuses_bad_samples) {
     EXPECT_THROW((void)of_samples({good}, 0.0), std::invalid_argument);
     EXPECT_THROW((void)of_samples({good}, NAN), std::invalid_argument);
     EXPECT_EQ(of_samples({}).points().size(), 0u);
+    const auto furniture = gnomon::simulation::furniture_models()[0];
+    const auto samples = gnomon::simulation::sample_surface(furniture, {.spacing = 0.05});
+    for (const rec::vertical_symmetry& bad :
+         {rec::vertical_symmetry{.order = -1}, rec::vertical_symmetry{.order = 2, .x = NAN}})
+        EXPECT_THROW((void)rec::surface_model(samples, samples, 0.05, bad,
+                                              &gnomon::simulation::surface_sample::position),
+                     std::invalid_argument);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ namespace detail {
 inline void require_hesse(const plane& p) {
     constexpr double rounding = 1e-6;  // numerical
     require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
-            "the normal of a plane, or the direction upwards, must be of unit length");
+            "a plane, or a direction upwards, needs a normal of unit length and a finite offset");
 }
 
 }  // namespace detail

@@ -70,12 +70,13 @@ struct alignment {
     /// Of turns about three axes [rad], then of shifts along them [m].
     using covariance_matrix = detail::parameter_covariance<6>;
     /// Of directions that the points do not determine [m]; a turn has it over the root mean square
-    /// distance of the points from `center`.
+    /// distance from `center` of the points of which that is the centroid.
     static constexpr double unknown_deviation = 1e3;  // numerical: more than any scene [m]
 
     outcome status = outcome::too_few_points;  ///< of this alignment
     rigid_motion pose;                         ///< of the points' frame in that of the surface
-    /// Of the turns: the centroid of the points, in the frame of the surface [m].
+    /// Of the turns: the centroid of the points that were near the surface at the start, in the
+    /// frame of the surface [m].
     Eigen::Vector3d center{0.0, 0.0, 0.0};
     /// Of a small motion in the frame of the surface, which leads from the estimated pose to the
     /// true one: a turn about `center`, as a rotation vector, and a shift. Zero in the rows and

@@ -41,6 +41,12 @@ concept has_aspect_ratio = requires(const T& estimate) {
 struct repair_anisotropic_options {
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which a neighborhood counts as anisotropic
     int doublings = 1;              ///< how often k may be doubled; the thesis does so once
+
+    /// @throws std::invalid_argument  if one of them is negative or NaN
+    void require_valid() const {
+        detail::require(min_aspect_ratio >= 0.0 && doublings >= 0,
+                        "repair_anisotropic: an option must not be negative or NaN");
+    }
 };
 
 /// Estimates again, from doubled k, every finite point whose neighborhood is anisotropic. Orient
@@ -50,7 +56,8 @@ struct repair_anisotropic_options {
 /// @param policy   the neighborhood that the surface was estimated from
 /// @param surface  what estimate_normals returned for these; changed in place
 /// @return the number of points that were estimated again
-/// @throws std::invalid_argument  if surface and points differ in size, or k is 0
+/// @throws std::invalid_argument  if surface and points differ in size, k is 0, or for options that
+///                                are not valid
 /// Complexity: one search and one estimate for each anisotropic point and doubling, and the index
 /// if `points` is none.
 template <class R, estimator E, execution X = sequential, class Proj = std::identity>
@@ -60,6 +67,7 @@ std::size_t repair_anisotropic(const R& points, const knn& policy,
                                const repair_anisotropic_options& options = {}, const X& run = {},
                                Proj projection = {}) {
     policy.require_valid();
+    options.require_valid();
     detail::require(surface.size() == position_view<R, Proj>(points, projection).size(),
                     "repair_anisotropic: surface and points differ in size");
     const auto is_isotropic = [&](std::size_t i) {
@@ -69,7 +77,7 @@ std::size_t repair_anisotropic(const R& points, const knn& policy,
     detail::scratch<std::size_t> flagged;
     for (std::size_t i = 0; i < surface.size(); ++i)
         if (!is_isotropic(i)) flagged.push_back(i);
-    if (options.doublings <= 0 || flagged.empty()) return 0;
+    if (options.doublings == 0 || flagged.empty()) return 0;
 
     const std::size_t repaired = flagged.size();
     const auto& index = detail::index_of(points, run, projection);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Finds objects in a scan of a whole room, with their places, although they touch others or are
-/// half hidden. Instead of first grouping points to views, parts vote for objects and places, and
-/// the surface of each object is compared with a grid of places. Each such hypothesis is aligned
-/// with the points and verified by what the sensor saw, and hypotheses compete for the points that
-/// they explain.
+/// half hidden. Groups of points, as in perceive_views(), have parts, but none is one object: parts
+/// vote for objects and places, and the surface of each object is compared with a grid of places.
+/// Each such hypothesis is aligned with the points and verified by what the sensor saw, and
+/// hypotheses compete for points.
 ///
 ///     namespace rec = gnomon::recognition;
 ///     rec::object_finder finder;
@@ -15,10 +15,8 @@
 ///     for (const rec::found_object& o : finder(scan, {.noise = noise}).objects)
 ///         use(finder.names()[o.object], o.aligned.pose, o.probability);
 ///
-/// Hypotheses that come from elsewhere are only aligned and verified: `finder.verify(scan,
-/// places)`.
-///
-/// In no umbrella: include it by name.
+/// Hypotheses from elsewhere are aligned and verified: `finder.verify(scan, places)`. In no
+/// umbrella: include it by name.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +39,6 @@
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/normals/measure_noise.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/object_competition.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
@@ -68,7 +65,9 @@ class object_finder {
     explicit object_finder(part_votes_options votes = {}) : votes_(votes) {}
 
     /// Adds an object. Several may have one name: variants of one class. One that is larger than 4
-    /// m, or whose origin is not within its bounds, is found by the votes of its parts only.
+    /// m, or whose origin is not within its bounds, is found by the votes of its parts only; one of
+    /// which no view is learned, by its surface only.
+    /// @param surface  with samples that are at most 3 cm apart
     /// @return its number
     /// @throws std::invalid_argument  if it has no name, or that of background, or its surface no
     ///                                samples
@@ -84,12 +83,14 @@ class object_finder {
 
     /// Stores the parts of a view of an object, as perceive_views() sees them.
     /// @param pose  of the object's frame in that of the view
-    /// @throws std::invalid_argument  if there is no such object, the pose is no rigid motion, or
-    ///                                the view has no ground; nothing is stored then
+    /// @throws std::invalid_argument  if there is no such object, the pose is no rigid motion, the
+    ///                                view has no ground of unit normal, or a part is not finite;
+    ///                                nothing is stored then
     void learn(const view& v, const rigid_motion& pose, std::size_t object) {
         gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
         gnomon::detail::require(is_rigid(pose), "object_finder: the pose is no rigid motion");
-        recognizer_.learn(v, names_[object]);  // refuses what the votes would refuse
+        part_votes<>().learn(v, pose, object);  // refuses before anything is stored
+        recognizer_.learn(v, names_[object]);
         votes_.learn(v, pose, object);
         is_fitted_ = false;
     }
@@ -103,16 +104,20 @@ class object_finder {
     }
 
     /// Fits the recognizer of parts, to be called after all views are learned.
-    /// @throws std::invalid_argument  if views of fewer than two objects were learned
+    /// @param run  the result does not depend on it
+    /// @throws std::invalid_argument  if views of fewer than two names were learned, background
+    ///                                among them
+    /// Complexity: that of object_recognizer::fit().
     template <execution X = sequential>
     void fit(const X& run = {}) {
+        gnomon::detail::require(recognizer_.classes() > 1,
+                                "object_finder: learn views of two names, or of background, first");
         recognizer_.fit(run);
         is_fitted_ = true;
     }
 
-    /// The names of the objects, by their numbers.
+    /// Names and surfaces of the objects, by their numbers.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-    /// The surfaces of the objects, by their numbers.
     [[nodiscard]] const std::vector<surface_model>& surfaces() const { return surfaces_; }
 
     /// Finds objects.
@@ -120,8 +125,9 @@ class object_finder {
     /// @param run     the result does not depend on it
     /// @return none if no ground was found
     /// @throws std::invalid_argument  for options that are not valid, or before fit()
-    /// Complexity: O(n log n), and O(log n) for each of 150 samples at each place, at most 12 of an
-    /// object by votes and 8 by its surface around each 64 m^2, and of 1,000 where it may stand.
+    /// Complexity: O(n log n), and alignments of 100 cells with O(log n) for each of 150 samples
+    /// and each view point, at the places of most votes of each object and 8 by its surface in 64
+    /// m^2.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] found_objects operator()(const R& points,
@@ -146,17 +152,16 @@ class object_finder {
         return result;
     }
 
-    /// Verifies hypotheses of others, such as those of a detector in images: each is aligned with
-    /// the scan from its place, and is as probable as what the scan shows of it. They do not
-    /// compete, and none is left out.
+    /// Verifies hypotheses of others, such as a detector in images: each is aligned with the scan
+    /// from its place, and is as probable as what the scan shows of it. They do not compete.
     /// @param points   as above
     /// @param places   m objects, each at most 10 cm and 15 degrees from where it is
     /// @param options  as above; the least probability is not used
     /// @return m hypotheses in the order of the places; those with too few points, and all if no
-    ///         ground was found, are of probability 0
+    ///         ground was found, are of probability 0. Poses of less than 0.05 are not refined
     /// @throws std::invalid_argument  as above, or if there is no such object or a pose is no rigid
     ///                                motion
-    /// Complexity: O(n log n), and O(log n) for each of 1,000 samples of a place.
+    /// Complexity: O(n log n), and for each place some alignments as above.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] std::vector<found_object> verify(const R& points,
@@ -170,6 +175,8 @@ class object_finder {
             require(is_rigid(places[i].pose), "object_finder: the pose is no rigid motion");
             result[i].object = places[i].object;
             result[i].aligned.pose = places[i].pose;
+            detail::add_shift_on_ground(result[i].aligned, surfaces_[places[i].object], options.up,
+                                        alignment::unknown_deviation);
         }
         const auto& team = gnomon::detail::staying(run);
         (void)in_scene(points, options, team, projection, [&](const scene_of& at) {
@@ -180,7 +187,8 @@ class object_finder {
                 h = detail::aligned_carefully(at.scene,
                                               detail::improved_roughly(at.scene, h, model), model);
                 recognize(at.scene, h);
-                h.aligned = at.scene.refined(h.aligned, model, options.divergence);
+                if (h.probability >= detail::scene_evidence::worth)
+                    h.aligned = at.scene.refined(h.aligned, model, options.divergence);
             });
         });
         return result;
@@ -201,36 +209,32 @@ class object_finder {
                                            const auto& team, Proj projection, const auto& f) const {
         options.require_valid();
         gnomon::detail::require(is_fitted_ || names_.empty(), "object_finder: fit() it first");
-        noise_curve noise = constant_noise{};
-        if (options.noise) {
-            noise = *options.noise;
-        } else if (const auto measured = measure_noise(points, team, projection); measured.curve) {
-            noise = *measured.curve;
-        }
-        constexpr std::size_t fewest_cells = 20;  // chosen: a stool at 5 m has 60 points
+        const noise_curve noise = detail::noise_of(points, options.noise, team, projection);
         perceived_views seen = perceive_views(points,
                                               {.ground = options.ground,
                                                .up = options.up,
                                                .noise = noise,
-                                               .min_points = fewest_cells},
+                                               .min_points = detail::scene_evidence::fewest},
                                               team, projection);
         std::vector<point_index> kept;
         for (std::size_t i = 0; i < seen.groups.labels().size(); ++i)
             if (seen.groups.labels()[i] != unlabeled) kept.push_back(static_cast<point_index>(i));
         if (kept.empty() || !seen.ground || names_.empty()) return seen;
-        const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
-                                          {.edge = perceive_views_options{}.cell}, team);
+        auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
+                                    {.edge = perceive_views_options{}.cell}, team);
+        if (cells.viewpoints.empty()) cells.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
         std::optional<detail::mixed_cells> mixed;
         if (options.divergence > degrees(0.0))
             mixed.emplace(points, kept, cells, options.divergence, noise, team, projection);
+        const position_view<R, Proj> position(points, projection);
         const detail::scene_evidence scene(
-            cells, visibility(points, {.noise = noise}, team, projection), seen.groups.labels(),
+            cells, visibility(points, {.noise = noise}, team, projection),
+            {seen.groups.labels(), [&](point_index i) { return position[i]; }},
             votes_.votes(seen.views, team), noise, *seen.ground, team, mixed ? &*mixed : nullptr);
         f(scene_of{kept, cells, scene});
         return seen;
     }
 
-    /// Corrects the probability of a hypothesis by the parts of the points on its surface.
     void recognize(const detail::scene_evidence& scene, found_object& h) const {
         scene.recognize(h, surfaces_[h.object], recognizer_, names_[h.object]);
     }

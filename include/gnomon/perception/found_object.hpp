@@ -28,14 +28,16 @@ namespace gnomon::recognition {
 struct find_objects_options {
     /// Along the rays; else it is measured, and where it cannot be, that of constant_noise{}.
     std::optional<noise_curve> noise = std::nullopt;
-    std::optional<plane> ground = std::nullopt;  ///< as in `perceive_views_options`
-    Eigen::Vector3d up{0.0, 0.0, 1.0};           ///< as there
+    /// As in `perceive_views_options`; where it is given, no ceiling is looked for.
+    std::optional<plane> ground = std::nullopt;
+    Eigen::Vector3d up{0.0, 0.0, 1.0};  ///< as there
     /// Full angle of the beams; 0 for narrow ones. Wide beams return points that are behind edges
-    /// by up to half of their width, and points between two surfaces: poses then rest on the
-    /// others, where these determine them, and covariances include a shift of edges, by 3.5 % of
-    /// the width of a beam, else 20 %.
+    /// by up to half of their width, and points between two surfaces: the final poses of objects
+    /// rest on the others, where these determine them, and covariances include a shift of
+    /// edges, by 3.5 % of the width of a beam, else 20 %.
     angle divergence = degrees(0.0);
-    /// Of objects that are found, at least 0.05; formula: more probable than not.
+    /// The probability of an object from which on it is found; 0.05 if it is less. Formula: more
+    /// probable than not.
     double min_probability = 0.5;
 
     /// @throws std::invalid_argument  unless the probability is from 0 to 1 and the divergence is
@@ -50,9 +52,13 @@ struct find_objects_options {
 /// An object that was found.
 struct found_object {
     std::size_t object = 0;  ///< its number
-    alignment aligned;       ///< the pose of its frame in that of the scan, with covariance
-    verification evidence;   ///< what the scan shows of it
-    double votes = 0.0;      ///< for its pose: the sum over parts, each at most 1
+    /// The pose of its frame in that of the scan, with covariance. Outcome, determined directions
+    /// and inliers are those of its faces; where these leave it free to slide, pose and covariance
+    /// come from its silhouette.
+    alignment aligned;
+    /// What the scan shows of it, before its pose was refined by whole beams and silhouette.
+    verification evidence;
+    double votes = 0.0;  ///< for its pose: the sum over parts, each at most 1
     /// Natural logarithm of the probability that a recognizer gives the name of this object, by the
     /// parts of the points on its surface; 0 if it was not recognized.
     double log_recognized = 0.0;
@@ -62,8 +68,8 @@ struct found_object {
 /// What was found in a scan of n points.
 struct found_objects {
     std::vector<found_object> objects;  ///< the most probable one first
-    segments points;                    ///< of the n points: those that each object explains
-    perceived_views seen;               ///< groups of points and their parts, objects or not
+    segments points;       ///< of the n points: those on each object, at the pose before refinement
+    perceived_views seen;  ///< groups of points and their parts, objects or not
 };
 
 }  // namespace gnomon::recognition

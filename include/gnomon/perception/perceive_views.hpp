@@ -119,6 +119,16 @@ template <class R, class Proj>
     return finite;
 }
 
+/// The noise along the rays: as given, or measured, or where it cannot be, that of
+/// constant_noise{}.
+template <class R, class X, class Proj>
+[[nodiscard]] noise_curve noise_of(const R& points, const std::optional<noise_curve>& given,
+                                   const X& run, Proj projection) {
+    if (given) return *given;
+    const auto measured = measure_noise(points, run, projection);
+    return measured.curve ? *measured.curve : constant_noise{};
+}
+
 /// Those of these points that wide beams return where a surface is. Objects among others are
 /// connected by mixed points; one that is alone has hardly any, but looks wider than it is.
 template <class R, execution X, class Proj>
@@ -130,13 +140,10 @@ template <class R, execution X, class Proj>
     if (divergence == degrees(0.0)) return chosen;
     std::vector<point_index> seen, both;
     if (options.gap < infinite_gap) {
-        mixed_point_options mixed{.divergence = divergence};
-        if (options.noise) {
-            mixed.noise = *options.noise;
-        } else if (const auto measured = measure_noise(points, run, projection); measured.curve) {
-            mixed.noise = *measured.curve;
-        }
-        seen = remove_mixed_points(points, mixed, run, projection);
+        seen = remove_mixed_points(
+            points,
+            {.divergence = divergence, .noise = noise_of(points, options.noise, run, projection)},
+            run, projection);
     } else {
         seen = remove_silhouettes(points, {.divergence = divergence}, run, projection);
     }

@@ -117,8 +117,10 @@ struct perception {
         if (leave_out) detail::require_valid(*leave_out);
         if constexpr (is_on_cells)
             detail::require_valid(segmentation.planes);
-        else
+        else {
             detail::require_valid(segmentation.surfaces);
+            segmentation.repair.require_valid();
+        }
     }
 
     using result_type = perception_result<estimate_t<Estimator>>;  ///< what is returned

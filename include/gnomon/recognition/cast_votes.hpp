@@ -45,8 +45,8 @@ struct part_votes_options {
     double min_votes = 0.3;      ///< of a place
     std::size_t most = 12;       ///< places of an object, those of most votes
 
-    /// @throws std::invalid_argument  unless all are positive and finite, and max_distance and
-    ///                                min_votes not negative
+    /// @throws std::invalid_argument  unless numbers are positive, deviations positive and finite,
+    ///                                and max_distance and min_votes not negative
     void require_valid() const {
         using gnomon::detail::require;
         require(nearest > 0 && most > 0, "part_votes: requires a part and a place");
@@ -61,8 +61,11 @@ struct part_votes_options {
 class cast_votes {
   public:
     /// No votes yet, for objects with numbers below `objects`.
+    /// @throws std::invalid_argument  for options that are not valid
     cast_votes(const part_votes_options& options, std::size_t objects)
-        : options_(options), votes_(objects) {}
+        : options_(options), votes_(objects) {
+        options.require_valid();
+    }
 
     /// Begins a further part, whose votes are the next ones.
     /// @return the frame of the ground, in which places are
@@ -82,7 +85,7 @@ class cast_votes {
     }
 
     /// The sum of the votes for an object at a pose in the scan, at most one of each part; 0 for an
-    /// object without votes. O(v) for v votes.
+    /// object without votes. Precondition: the pose is a rigid motion. O(v) for v votes.
     [[nodiscard]] double at(std::size_t object, const rigid_motion& pose) const {
         if (object >= votes_.size()) return 0.0;
         const Eigen::Vector3d place = ground_.point_in(pose.position);
@@ -115,7 +118,7 @@ class cast_votes {
         double strip;  // the number of the strip along y that it is in, x / farthest()
     };
 
-    static constexpr double most_deviations = 3.0;  // performance only: of votes that agree
+    static constexpr double most_deviations = 3.0;  // chosen: farther votes agree by 1 % at most
 
     /// The largest distance of two votes that agree [m].
     [[nodiscard]] double farthest() const {

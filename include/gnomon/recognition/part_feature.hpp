@@ -72,11 +72,12 @@ template <class Features>
 
 namespace detail {
 
-/// @throws std::invalid_argument  without ground
+/// @throws std::invalid_argument  without ground, or if its normal is not of unit length
 [[nodiscard]] inline const plane& ground_of(const view& v, std::string_view feature) {
     if (!v.ground)
         GNOMON_THROW(std::invalid_argument("the feature " + std::string(feature) +
                                            " needs the ground of the view, which is not known"));
+    gnomon::detail::require_hesse(*v.ground);
     return *v.ground;
 }
 

@@ -52,6 +52,7 @@ class part_votes {
         double turn = 0.0;               ///< heading of the object less that of the part [rad]
     };
 
+    /// Nothing is learned yet.
     /// @throws std::invalid_argument  for options that are not valid, or weights that are all 0
     explicit part_votes(part_votes_options options = {}, Features features = default_features)
         : options_(options), features_(std::move(features)) {
@@ -90,7 +91,7 @@ class part_votes {
     /// The parts that were learned, in their sequence.
     [[nodiscard]] const std::vector<sample>& samples() const { return samples_; }
 
-    /// The votes of the parts of all views.
+    /// The votes of the parts of all views of one scan. Places are on the ground of the first view.
     /// @param run  `sequential{}` or `threads{n}`; the result does not depend on it
     /// @throws std::invalid_argument  if a view has no ground, or a feature or place is not finite
     /// Complexity: O(p s) for p parts and s samples.
@@ -110,9 +111,11 @@ class part_votes {
         return all;
     }
 
-    /// The places of most votes: `votes(views).places()`.
-    [[nodiscard]] std::vector<object_place> places(std::span<const view> views) const {
-        return votes(views).places();
+    /// The places of most votes: `votes(views, run).places(run)`, with its errors and complexity.
+    template <execution X = sequential>
+    [[nodiscard]] std::vector<object_place> places(std::span<const view> views,
+                                                   const X& run = {}) const {
+        return votes(views, run).places(run);
     }
 
   private:

@@ -55,8 +55,8 @@ class surface_model {
     /// @param spacing   about one sample per square of this size [m]
     /// @param symmetry  as stored before; by default it is measured
     /// @throws std::invalid_argument  if points and normals differ in number, a point is not
-    ///                                finite, a normal not of unit length, or the spacing not
-    ///                                positive
+    ///                                finite, a normal not of unit length, the spacing not
+    ///                                positive, or the symmetry of a negative order or no axis
     /// Complexity: O(n log n).
     template <class R, normal_range Normals, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -83,6 +83,10 @@ class surface_model {
                 high_[a] = i == 0 ? p[a] : std::max(high_[a], p[a]);
             }
         }
+        if (symmetry)
+            require(
+                symmetry->order >= 0 && std::isfinite(symmetry->x) && std::isfinite(symmetry->y),
+                "surface_model: a symmetry needs an order from 0 and a finite axis");
         set_coarse();
         symmetry_ = symmetry ? *symmetry : measure_symmetry(all_.points, all_.normals, spacing);
     }

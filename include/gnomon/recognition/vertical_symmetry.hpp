@@ -27,7 +27,7 @@ struct vertical_symmetry {
     int order = 1;            ///< multiples of 360 degrees / order; 1 for none, or `any_turn`
     double x = 0.0, y = 0.0;  ///< of the axis [m]
 
-    /// Turn k as a motion of the surface's frame: k / order of a full turn about the axis.
+    /// A turn about the axis, as a motion of the surface's frame.
     [[nodiscard]] rigid_motion turn(angle by) const {
         return rigid_motion::on_ground(x, y, by) * rigid_motion::on_ground(-x, -y, degrees(0.0));
     }

@@ -211,10 +211,11 @@ template <class R, class S, class Normals, execution X, class Proj>
     const auto& team = staying(run);
     constexpr std::identity as_it_is;  // named: g++ 13 warns of a reference to a temporary
     const auto& index = index_of(surface, team, as_it_is);
-    const movable_cloud cloud(points, normals, options.noise, projection);
-    alignment result;
-    result.points = cloud.points.size();
-    result.pose = start;
+    const auto is_near = [&](const Eigen::Vector3d& x) {
+        return is_near_surface(index, start.point_out(x), options.max_distance);
+    };
+    const movable_cloud cloud(points, normals, options.noise, is_near, projection);
+    alignment result{.pose = start, .points = cloud.points.size()};
     rigid_motion pose{start.rotation, start.point_out(cloud.centroid)};
     double largest = cloud.largest;
     for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(pose.position[a]));

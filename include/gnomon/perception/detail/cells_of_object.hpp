@@ -19,6 +19,7 @@
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/recognition/detail/points_in_bounds.hpp>
 #include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/verification.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -27,7 +28,7 @@ namespace gnomon::recognition::detail {
 [[nodiscard]] inline std::vector<point_index> cells_on(const spatial_index& cells,
                                                        const surface_model& model,
                                                        const rigid_motion& pose) {
-    constexpr double lowest = 0.05;  // [m]; as in verifications
+    constexpr double lowest = verification_options{}.lowest;
     constexpr double margin = 0.03;  // [m]; chosen: spacing of samples, and noise
     const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
     Eigen::Vector3d low = model.low() - around;

@@ -79,7 +79,7 @@ class ground_motions {
     }
 
   private:
-    /// Component i of what a motion of one meter along axis a changes: a turn, then a shift.
+    /// Component i of the change by a motion of one meter along axis a: of a turn, then a shift.
     [[nodiscard]] double unit(int a, int i) const {
         if (a == 0) return i < 3 ? up_[i] / half_ : 0.0;
         return i < 3 ? 0.0 : (a == 1 ? first_ : second_)[i - 3];
@@ -95,7 +95,7 @@ class ground_motions {
     alignment found_;
     Eigen::Vector3d up_, first_, second_;
     double half_ = 1.0;           // of the mean side [m]: a turn by 1 is as long
-    double turn_variance_ = 0.0;  // of a turn that is no motion, as a length [m^2]
+    double turn_variance_ = 0.0;  // where a turn is no motion: its variance, as a length [m^2]
     Eigen::Matrix3d axes_;
     Eigen::Vector3d variances_;
 };

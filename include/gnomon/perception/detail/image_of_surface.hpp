@@ -69,9 +69,10 @@ class image_of_surface {
 
     /// Empty for an object that is all around the view point.
     /// @param spacing  of pixels [rad]
-    image_of_surface(const range_image& image, double spacing, const image_plane& plane,
-                     const surface_model& model, const rigid_motion& pose)
-        : image_(image), plane_(plane) {
+    /// @param band     pixels around the object
+    image_of_surface(const range_image& image, double spacing, std::ptrdiff_t band,
+                     const image_plane& plane, const surface_model& model, const rigid_motion& pose)
+        : image_(image), plane_(plane), band_(band) {
         constexpr double lowest = 0.05;  // [m]; as in verifications: lower points are floor
         for_each_facing_sample(model, pose, plane.viewpoint, lowest, [&](const facing_sample& s) {
             samples_.push_back(s);
@@ -90,16 +91,12 @@ class image_of_surface {
     [[nodiscard]] range_image::pixel pixel(std::size_t k) const {
         return {(first_ + k % width_) % image_.width(), low_ + k / width_};
     }
-    /// On the image plane.
-    [[nodiscard]] const Eigen::Vector2d& place(std::size_t k) const { return places_[k]; }
     /// The sample next to a pixel, or null.
     [[nodiscard]] const facing_sample* sample(std::size_t k) const {
         return nearest_[k].sample == none ? nullptr : &samples_[nearest_[k].sample];
     }
 
   private:
-    static constexpr std::ptrdiff_t band = 3;  // pixels around the object; chosen
-
     /// A sample next to a pixel: of those on the ray the one of least range, or else the one of the
     /// nearest direction.
     struct next {
@@ -127,10 +124,10 @@ class image_of_surface {
             low_ = std::min(low_, pixels_[i].elevation);
             high = std::max(high, pixels_[i].elevation);
         }
-        left_ -= band;
-        right += band;
-        low_ -= std::min<std::size_t>(low_, band);
-        high = std::min<std::size_t>(high + band, image_.height() - 1);
+        left_ -= band_;
+        right += band_;
+        low_ -= std::min(low_, static_cast<std::size_t>(band_));
+        high = std::min(high + static_cast<std::size_t>(band_), image_.height() - 1);
         const auto w = static_cast<std::ptrdiff_t>(image_.width());
         if (2 * (right - left_) >= w) return false;
         first_ = static_cast<std::size_t>(
@@ -142,17 +139,17 @@ class image_of_surface {
 
     /// Compares a sample with the pixels around it.
     void show(std::size_t i, double pixel, double spacing) {
-        constexpr double reach = 3.6;      // pixels: the band, and a part of one
-        constexpr double spacings = 0.75;  // chosen: half of their diagonal
+        constexpr double spacings = 0.75;                       // chosen: half of their diagonal
+        const double reach = static_cast<double>(band_) + 0.6;  // pixels; chosen: a part of one
         const facing_sample& s = samples_[i];
         const Eigen::Vector2d at =
             plane_.place_of(gnomon::detail::difference(s.at, plane_.viewpoint));
         const auto x = column(i) - left_;
         const auto y = static_cast<std::ptrdiff_t>(pixels_[i].elevation - low_);
         const auto rows = static_cast<std::ptrdiff_t>(height_);
-        for (auto b = std::max<std::ptrdiff_t>(0, y - band); b <= std::min(rows - 1, y + band);
+        for (auto b = std::max<std::ptrdiff_t>(0, y - band_); b <= std::min(rows - 1, y + band_);
              ++b) {
-            for (auto a = x - band; a <= x + band; ++a) {
+            for (auto a = x - band_; a <= x + band_; ++a) {
                 const auto k = static_cast<std::size_t>(b) * width_ + static_cast<std::size_t>(a);
                 const double tangent = (places_[k] - at).norm();
                 const bool is_on = tangent * s.range < spacings * spacing;
@@ -168,9 +165,10 @@ class image_of_surface {
     const image_plane& plane_;
     std::vector<facing_sample> samples_;
     std::vector<range_image::pixel> pixels_;  // of the samples
-    std::ptrdiff_t left_ = 0;                 // column, from the first sample on
-    std::size_t first_ = 0, low_ = 0;         // column and row in the image
-    std::size_t width_ = 0, height_ = 0;      // in pixels
+    std::ptrdiff_t band_;
+    std::ptrdiff_t left_ = 0;             // column, from the first sample on
+    std::size_t first_ = 0, low_ = 0;     // column and row in the image
+    std::size_t width_ = 0, height_ = 0;  // in pixels
     std::vector<Eigen::Vector2d> places_;
     std::vector<next> nearest_;
 };

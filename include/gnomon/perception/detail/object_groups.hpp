@@ -85,7 +85,8 @@ struct seen_group {
         auto views = views_of(group, found.surface, found.surfaces,
                               {.gap = infinite_gap,
                                .min_parts = std::max<std::size_t>(1, options.min_parts),
-                               .ground = ground});
+                               .ground = ground},
+                              inner);
         seen[g].surfaces = std::move(found.surfaces);
         if (!views.empty()) seen[g].as_view = std::move(views.front());
     };

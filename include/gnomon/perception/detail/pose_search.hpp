@@ -38,7 +38,7 @@ class pose_search {
     static constexpr std::size_t most = 8;
 
     explicit pose_search(const surface_model& model) : model_(model) {
-        constexpr std::size_t samples = 96;  // performance only
+        constexpr std::size_t samples = 96;  // chosen for speed: results depend on it little
         constexpr double lowest = 0.08;      // [m]; the floor's band, and a part of a voxel
         std::vector<std::size_t> above;
         for (std::size_t i = 0; i < model.points().size(); ++i)
@@ -54,8 +54,7 @@ class pose_search {
         if (samples_.empty()) return {};  // nothing above the band of the floor
         std::vector<scored> good;
         const int order = model_.symmetry().order;
-        const int headings =
-            order == vertical_symmetry::any_turn ? 1 : std::max(1, (full_turn + order - 1) / order);
+        const int headings = order == vertical_symmetry::any_turn ? 1 : 1 + (full_turn - 1) / order;
         for (int t = 0; t < headings; ++t) score(space, t, good);
         std::ranges::stable_sort(good, std::greater{}, &scored::sum);
         std::vector<scored> best;

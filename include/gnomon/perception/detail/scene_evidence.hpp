@@ -54,17 +54,19 @@ class scene_evidence {
   public:
     /// The probability below which a hypothesis is neither improved nor recognized, and not found.
     static constexpr double worth = 0.05;  // chosen: a tenth of the one that is usually found
+    /// Cells of a group, or near a place, with fewer of which there is no object.
+    static constexpr std::size_t fewest = 20;  // chosen: of a stool at 5 m half face the sensor
 
-    /// Keeps references to cells, groups and mixed.
-    /// @param groups  of the points that `seen` has the images of, as in perceive_views()
-    scene_evidence(const voxel_grid::means& cells, visibility seen,
-                   std::span<const std::int32_t> groups, cast_votes votes, const noise_curve& noise,
-                   const plane& ground, const auto& run, const mixed_cells* mixed = nullptr)
+    /// Keeps references to cells and mixed, and what the points refer to.
+    /// @param points  of which `seen` has images
+    scene_evidence(const voxel_grid::means& cells, visibility seen, imaged_points points,
+                   cast_votes votes, const noise_curve& noise, const plane& ground, const auto& run,
+                   const mixed_cells* mixed = nullptr)
         : cells_(cells),
           index_(cells, run),
           surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
           seen_(std::move(seen)),
-          groups_(groups),
+          points_(std::move(points)),
           votes_(std::move(votes)),
           noise_(noise),
           ground_(ground),
@@ -88,7 +90,8 @@ class scene_evidence {
         return places;
     }
 
-    /// How much of a scan and of a model is compared; performance only.
+    /// How much of a scan and of a model is compared; chosen for speed: results depend on it
+    /// little.
     struct effort {
         std::size_t cells;    ///< that are aligned
         bool all_samples;     ///< of the model, or the coarse ones, with which these are aligned
@@ -123,15 +126,15 @@ class scene_evidence {
         const alignment whole = aligned_by_whole_beams(
             found, model,
             {cells_, index_, surface_, mixed_, noise_, ground_.normal, divergence, careful.cells});
-        return by_silhouette(whole, model, seen_, groups_, noise_, divergence, ground_.normal);
+        return by_silhouette(whole, model, seen_, points_, noise_, divergence, ground_.normal);
     }
 
     /// Corrects the probability of a hypothesis after the points on its surface were recognized;
-    /// without parts all names are as probable.
+    /// without parts, and for a name of which no view was learned, all names are as probable.
     void recognize(found_object& h, const surface_model& model,
                    const object_recognizer<>& recognizer, const std::string& name) const {
         if (h.probability < worth) return;
-        constexpr double least = -6.0;  // chosen: 0.25 %, less than one of 200 trees
+        constexpr double least = -6.0;  // chosen: a probability of 0.25 %
         const auto on = cells_on(model, h.aligned.pose);
         const auto seen = perceive_views(
             subset_view(cells_, on),
@@ -140,11 +143,11 @@ class scene_evidence {
         if (!seen.views.empty()) {
             const auto& names = recognizer.names();
             const auto at = std::find(names.begin(), names.end(), name);
-            const double p = at == names.end()
-                                 ? 0.0
-                                 : recognizer.decide(seen.views.front())
-                                       .probability[static_cast<std::size_t>(at - names.begin())];
-            h.log_recognized = p > 0.0 ? std::max(least, std::log(p)) : least;
+            if (at != names.end()) {
+                const double p = recognizer.decide(seen.views.front())
+                                     .probability[static_cast<std::size_t>(at - names.begin())];
+                h.log_recognized = p > 0.0 ? std::max(least, std::log(p)) : least;
+            }
         }
         h.probability = probability_of(h);
     }
@@ -152,7 +155,7 @@ class scene_evidence {
     /// Corrects the probability of a hypothesis after other objects have taken cells.
     /// @param is_left  (i): whether cell i is of no object
     void update(found_object& h, const surface_model& model, const auto& is_left) const {
-        if (h.probability < worth) return;  // it was not recognized
+        if (h.probability < worth) return;  // nor is it improved or recognized
         const verification_options how{.noise = noise_};
         pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
         verifier.count_points(is_left);
@@ -191,8 +194,11 @@ class scene_evidence {
         for_each_point_in(index_, start, model.low() - around, model.high() + around,
                           [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
         const bool is_enough = inside.size() >= fewest;
-        if (!is_enough && !is_refused(h.evidence, 0)) return h;
-        if (!is_enough) return std::nullopt;
+        if (!is_enough && is_refused(h.evidence, 0)) return std::nullopt;
+        if (!is_enough) {
+            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
+            return h;
+        }
         const auto& samples = much.all_samples ? model.all() : model.coarse();
         h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
                                        {.noise = noise_,
@@ -210,14 +216,13 @@ class scene_evidence {
         return h;
     }
 
-    static constexpr std::size_t fewest = 20;     // cells, as in views
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
 
     const voxel_grid::means& cells_;
     spatial_index index_;
     std::vector<surfel<plane_fit>> surface_;
     visibility seen_;
-    std::span<const std::int32_t> groups_;
+    imaged_points points_;
     cast_votes votes_;
     noise_curve noise_;
     plane ground_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -27,30 +28,41 @@
 
 namespace gnomon::recognition::detail {
 
+/// The points of which there are images.
+struct imaged_points {
+    /// As in perceive_views(): a point of none is of no object.
+    std::span<const std::int32_t> groups;
+    std::function<Eigen::Vector3d(point_index)> at;  ///< [m]
+};
+
 /// The rays of one image.
 class silhouette_rays {
   public:
-    /// @param groups      of the points in the image, as in perceive_views(): a point of none is
-    ///                    of no object
+    /// @param points      that are in the image
     /// @param pixel       of the image [rad]
     /// @param noise       along the rays
     /// @param divergence  full angle of the beams [rad]
     /// @param pose        of the object, about: its faces are there, though they may slide on
     ///                    themselves
-    silhouette_rays(const range_image& image, std::span<const std::int32_t> groups, double pixel,
+    silhouette_rays(const range_image& image, const imaged_points& points, double pixel,
                     const noise_curve& noise, double divergence, const surface_model& model,
                     const rigid_motion& pose)
         : plane_(image.viewpoint(),
                  pose.point_out(gnomon::detail::combined(0.5, model.low(), 0.5, model.high()))) {
-        const image_of_surface expected(image, pixel, plane_, model, pose);
+        constexpr double widest = 6.0;  // pixels in half a beam; chosen: wider ones show no edge
+        const double half = std::round(0.5 * divergence / pixel);
+        if (half > widest) return;
+        half_ = std::max<std::size_t>(1, static_cast<std::size_t>(half));
+        const auto band = static_cast<std::ptrdiff_t>(half_ + 2);
+        const image_of_surface expected(image, pixel, band, plane_, model, pose);
         for (std::size_t k = 0; k < expected.size(); ++k) {
             if (const facing_sample* s = expected.sample(k))
-                add(image, groups, noise, expected.pixel(k), expected.place(k), *s);
+                add(image, points, noise, expected.pixel(k), *s);
         }
         if (rays_.empty()) return;
         std::vector<Eigen::Vector2d> places;
-        for (const ray& r : rays_) places.push_back(r.at);
-        constexpr double narrow = 0.2;  // pixels across the narrowest beam; chosen
+        for (const silhouette_ray& r : rays_) places.push_back(r.at);
+        constexpr double narrow = 1.0;  // pixels of the narrowest beam; chosen: no gap between rays
         drawing_.emplace(plane_, places, std::max(divergence, narrow * pixel), model, pose);
         if (drawing_->is_too_large()) rays_.clear();
     }
@@ -64,7 +76,7 @@ class silhouette_rays {
         drawing_->draw(pose);
         shares.clear();
         double sum = 0.0;
-        for (const ray& r : rays_) {
+        for (const silhouette_ray& r : rays_) {
             shares.push_back(drawing_->share(r.at));
             sum += weight(r, shares.back()) * (shares.back() - r.share) * (shares.back() - r.share);
         }
@@ -72,28 +84,32 @@ class silhouette_rays {
     }
 
   private:
-    struct ray {
+    struct silhouette_ray {
         Eigen::Vector2d at;  ///< on the image plane
         double share;        ///< of it, which hits the object
     };
 
-    [[nodiscard]] static double weight(const ray& r, double expected) {
+    [[nodiscard]] static double weight(const silhouette_ray& r, double expected) {
         constexpr double beyond = 0.5;  // chosen on rooms of seeds 301 to 370, of .25 to 1
         return expected < r.share ? beyond : 1.0;
     }
 
     /// Adds the ray of a pixel, unless it is unknown what is on the face of a sample there.
-    void add(const range_image& image, std::span<const std::int32_t> groups,
-             const noise_curve& noise, const range_image::pixel& pixel, const Eigen::Vector2d& at,
-             const facing_sample& face) {
+    void add(const range_image& image, const imaged_points& points, const noise_curve& noise,
+             const range_image::pixel& pixel, const facing_sample& face) {
         using gnomon::detail::difference, gnomon::detail::dot, gnomon::detail::scaled;
         constexpr double deviations = 3.0;  // of the noise: 99.7 % of a normal distribution
         constexpr double tolerance = 0.01;  // [m]; that of verifications
         constexpr double uneven = 0.005;    // [m]; chosen: of faces between samples
         const std::optional<point_index> index = image.index(pixel);
-        if (!index || !(at.array() == at.array()).all()) return;
-        const double range = image.range(pixel);
-        const Eigen::Vector3d ray = image.direction_of(pixel);
+        if (!index) return;
+        // Rays are not in the middle of their pixels: on a table that is seen at a low angle these
+        // are centimeters apart.
+        const Eigen::Vector3d way = difference(points.at(*index), plane_.viewpoint);
+        const Eigen::Vector2d at = plane_.place_of(way);
+        if (!(at.array() == at.array()).all()) return;
+        const double range = gnomon::detail::length(way);
+        const Eigen::Vector3d ray = scaled(1.0 / range, way);
         const double slope = dot(ray, face.normal);
         const double in_front =  // of the plane of the face
             range * slope + dot(face.normal, difference(plane_.viewpoint, face.at));
@@ -101,7 +117,7 @@ class silhouette_rays {
                                                            noise.along(scaled(range, ray)));
         if (in_front > on || is_next_to_occluder(image, pixel, face)) return;
         if (in_front >= -on) {
-            if (groups[*index] >= 0) rays_.push_back({at, 1.0});
+            if (points.groups[*index] >= 0) rays_.push_back({at, 1.0});
             return;
         }
         rays_.push_back(
@@ -128,9 +144,8 @@ class silhouette_rays {
     /// the mean of two ranges, and the farther one is that of a pixel around it.
     /// @param slope     cosine between ray and normal
     /// @param distance  of the plane of the face from the view point, along its normal [m]
-    [[nodiscard]] static double share_behind(const range_image& image,
-                                             const range_image::pixel& pixel, double range,
-                                             double slope, double distance) {
+    [[nodiscard]] double share_behind(const range_image& image, const range_image::pixel& pixel,
+                                      double range, double slope, double distance) const {
         constexpr double oblique = -0.02;  // chosen: cosine; faces meet the ray at a range
         constexpr double apart = 0.1;      // [m]; chosen: a step that noise does not hide
         double far = range;
@@ -140,13 +155,14 @@ class silhouette_rays {
         return near < range && far - near > apart ? (far - range) / (far - near) : 0.0;
     }
 
-    /// Calls visit(pixel, range) for a pixel and those around it that are not empty.
-    static void for_each_around(const range_image& image, const range_image::pixel& at,
-                                const auto& visit) {
-        for (std::size_t e = at.elevation - std::min<std::size_t>(at.elevation, 1);
-             e <= std::min(at.elevation + 1, image.height() - 1); ++e) {
-            for (std::size_t a = at.azimuth + image.width() - 1;
-                 a <= at.azimuth + image.width() + 1; ++a) {
+    /// Calls visit(pixel, range) for the pixels that a beam covers, at least those around its own,
+    /// which are not empty.
+    void for_each_around(const range_image& image, const range_image::pixel& at,
+                         const auto& visit) const {
+        for (std::size_t e = at.elevation - std::min(at.elevation, half_);
+             e <= std::min(at.elevation + half_, image.height() - 1); ++e) {
+            for (std::size_t a = at.azimuth + image.width() - half_;
+                 a <= at.azimuth + image.width() + half_; ++a) {
                 const range_image::pixel p{a % image.width(), e};
                 if (const double range = image.range(p); range >= 0.0) visit(p, range);
             }
@@ -154,7 +170,8 @@ class silhouette_rays {
     }
 
     image_plane plane_;
-    std::vector<ray> rays_;
+    std::vector<silhouette_ray> rays_;
+    std::size_t half_ = 1;                    // pixels in half a beam, at least one
     std::optional<surface_drawing> drawing_;  // none without rays
 };
 

@@ -48,7 +48,7 @@ namespace gnomon::recognition::detail {
     using gnomon::detail::combined, gnomon::detail::difference, gnomon::detail::dot;
     constexpr double turned = 0.7;     // chosen: cosine of 45 degrees
     constexpr double spacings = 2.0;   // chosen: a sample of the other face is as near
-    constexpr std::size_t most = 200;  // performance only
+    constexpr std::size_t most = 200;  // chosen: more than are so near if spaced by 5 mm
     model.points().nearest_within_into(near, x, most, half + spacings * model.spacing());
     const auto normal_of = [&](const neighbor& q) { return model.normals()[q.index].normal; };
     const auto own = std::ranges::find_if(near, [&](const neighbor& q) {
@@ -107,6 +107,7 @@ struct whole_beams {
     Eigen::Vector3d way{0.0, 0.0, 0.0};  ///< the sum of these beams, from the sensor [m]
 };
 
+/// The points of an object that whole beams hit.
 /// @param cloud       of index and normals, seen from the origin without view points
 /// @param normals     of its points, a `normal_range`
 /// @param pose        of the object
@@ -120,30 +121,29 @@ struct whole_beams {
     whole_beams found;
     std::vector<neighbor> near;
     const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
-    for_each_point_in(
-        index, pose, model.low() - around, model.high() + around,
-        [&](point_index i, const Eigen::Vector3d& x) {
-            const Eigen::Vector3d from =
-                cloud.viewpoints.empty() ? Eigen::Vector3d(0.0, 0.0, 0.0) : cloud.viewpoints[i];
-            const Eigen::Vector3d way = gnomon::detail::difference(cloud.points[i], from);
-            const double width = divergence.radians() * gnomon::detail::length(way);
-            found.way = gnomon::detail::combined(1.0, found.way, 1.0, way);
-            found.widest = std::max(found.widest, width);
-            if (mixed != nullptr && (*mixed)(i)) return;
-            const Eigen::Vector3d normal = pose.direction_in(normals[i].normal);
-            if (!is_at_edge(model, x, normal, 0.5 * width, near)) found.points.push_back(i);
-        });
+    for_each_point_in(index, pose, model.low() - around, model.high() + around,
+                      [&](point_index i, const Eigen::Vector3d& x) {
+                          const Eigen::Vector3d way =
+                              gnomon::detail::difference(cloud.points[i], cloud.viewpoints[i]);
+                          const double width = divergence.radians() * gnomon::detail::length(way);
+                          found.way = gnomon::detail::combined(1.0, found.way, 1.0, way);
+                          found.widest = std::max(found.widest, width);
+                          if (mixed != nullptr && (*mixed)(i)) return;
+                          const Eigen::Vector3d normal = pose.direction_in(normals[i].normal);
+                          if (!is_at_edge(model, x, normal, 0.5 * width, near))
+                              found.points.push_back(i);
+                      });
     return found;
 }
 
 /// Adds to the covariance of an object on the ground what does not become less with more points: an
-/// unknown shift of its edges, which moves it along the ground, and turns it about the vertical by
-/// the shift over half of its mean side.
+/// unknown shift, such as that of its edges, which moves it along the ground, and turns it about
+/// the vertical by the shift over half of its mean side.
 /// @param found  its pose, in the frame of the scan
 /// @param up     the normal of the ground
 /// @param shift  standard deviation [m]
-inline void add_shift_of_edges(alignment& found, const surface_model& model,
-                               const Eigen::Vector3d& up, double shift) {
+inline void add_shift_on_ground(alignment& found, const surface_model& model,
+                                const Eigen::Vector3d& up, double shift) {
     const Eigen::Vector3d size = gnomon::detail::difference(model.high(), model.low());
     const double half = std::max(model.spacing(), 0.25 * (size.x() + size.y()));
     const double turn = shift / half;
@@ -207,7 +207,7 @@ struct beam_scene {
         }
         settled = next;
     }
-    add_shift_of_edges(settled, model, scene.up, share * widest);
+    add_shift_on_ground(settled, model, scene.up, share * widest);
     return settled;
 }
 

@@ -120,7 +120,7 @@ class pose_verifier {
                                     const auto& normal_of) {
         constexpr double spacings = 1.5;      // chosen: rays are not spaced evenly
         constexpr double most_oblique = 0.3;  // chosen: rays spread by 3 at most
-        constexpr std::size_t few = 6;        // performance only
+        constexpr std::size_t few = 6;        // chosen: the nearest one may be of another face
         const double between = range * pixel_ / std::max(facing, most_oblique);
         const double across = options_.tolerance + facing * noise;
         const double reach = std::max(across, spacings * between);
@@ -161,10 +161,12 @@ class pose_verifier {
 
     void count_left(const auto& is_left) {
         using gnomon::detail::combined;
-        const Eigen::Vector3d from = images_.empty() ? pose_.position : images_.front().viewpoint();
-        const Eigen::Vector3d middle = combined(0.5, model_.low(), 0.5, model_.high());
-        const double noise = deviations * options_.noise.along(gnomon::detail::difference(
-                                              pose_.point_out(middle), from));
+        const Eigen::Vector3d middle =
+            pose_.point_out(combined(0.5, model_.low(), 0.5, model_.high()));
+        double noise = 0.0;  // of the view point with most
+        for (const range_image& image : images_)
+            noise = std::max(noise, deviations * options_.noise.along(gnomon::detail::difference(
+                                                     middle, image.viewpoint())));
         const double reach = model_.spacing() + options_.tolerance + noise;
         const double around = reach + options_.around;
         Eigen::Vector3d low = model_.low() - Eigen::Vector3d::Constant(around);
