@@ -30,11 +30,11 @@ namespace {
 using gnomon::degrees;
 using gnomon::rigid_motion;
 
-const gnomon::noise_curve sharp = gnomon::constant_noise{0.004};
-const gnomon::angle wide = gnomon::radians(0.010);
-const Eigen::Vector3d up(0.0, 0.0, 1.0);
+const gnomon::noise_curve table_noise = gnomon::constant_noise{0.004};
+const gnomon::angle beam_width = gnomon::radians(0.010);
+const Eigen::Vector3d upwards(0.0, 0.0, 1.0);
 
-rec::surface_model surface_of(const sim::furniture_model& model) {
+rec::surface_model sampled_surface(const sim::furniture_model& model) {
     const auto samples = sim::sample_surface(model, {.spacing = 0.02});
     return rec::surface_model(samples, samples, 0.02, std::nullopt, &sim::surface_sample::position);
 }
@@ -53,7 +53,7 @@ struct table_scene {
         world.add_object("floor", sim::plane_patch{.length = 9.0, .width = 9.0},
                          sim::at(2.0, 0.0, 0.0));
         const auto table = sim::add(world, dining_table, where_table_is);
-        const double top = surface_of(dining_table).high().z();
+        const double top = sampled_surface(dining_table).high().z();
         std::int32_t beside = -2;
         if (shelf) {
             const auto at = where_table_is * rigid_motion::on_ground(1.05, 0.0, degrees(0));
@@ -90,10 +90,10 @@ gnomon::alignment aligned_off(double along, const rigid_motion& truth = where_ta
     gnomon::alignment a;
     a.pose = truth * rigid_motion::on_ground(along, 0.002, degrees(0.1));
     a.center = a.pose.position + Eigen::Vector3d(0.0, 0.0, 0.7);
-    const Eigen::Vector3d ahead = truth.direction_out({1, 0, 0}), left = up.cross(ahead);
+    const Eigen::Vector3d ahead = truth.direction_out({1, 0, 0}), left = upwards.cross(ahead);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            a.covariance(i, j) = 1e-4 * up[i] * up[j];
+            a.covariance(i, j) = 1e-4 * upwards[i] * upwards[j];
             a.covariance(3 + i, 3 + j) = 1e6 * ahead[i] * ahead[j] + 4e-6 * left[i] * left[j];
         }
     a.determined = 2;
@@ -101,36 +101,36 @@ gnomon::alignment aligned_off(double along, const rigid_motion& truth = where_ta
     return a;
 }
 
-gnomon::alignment fitted(const gnomon::alignment& found, const table_scene& scene,
-                         gnomon::angle divergence) {
-    static const rec::surface_model model = surface_of(dining_table);
+gnomon::alignment fitted_table(const gnomon::alignment& found, const table_scene& scene,
+                               gnomon::angle divergence) {
+    static const rec::surface_model model = sampled_surface(dining_table);
     return rec::detail::by_silhouette(
-        found, model, gnomon::visibility(scene.scan, {.noise = sharp}),
-        {scene.groups, [&](gnomon::point_index i) { return scene.scan.points[i]; }}, sharp,
-        divergence, up);
+        found, model, gnomon::visibility(scene.scan, {.noise = table_noise}),
+        {scene.groups, [&](gnomon::point_index i) { return scene.scan.points[i]; }}, table_noise,
+        divergence, upwards);
 }
 
 /// Of a pose of the table [m].
-Eigen::Vector3d error_of(const gnomon::alignment& a) {
+Eigen::Vector3d table_error(const gnomon::alignment& a) {
     return where_table_is.direction_in(a.pose.position - where_table_is.position);
 }
 
 /// A table that slides along itself is brought to where its ends are, and as certain as that.
 TEST(silhouette_fit, finds_where_a_table_ends) {
-    for (const gnomon::angle divergence : {degrees(0.0), wide}) {
+    for (const gnomon::angle divergence : {degrees(0.0), beam_width}) {
         for (const int sensors : {1, 2}) {
             const table_scene scene(divergence, false, sensors);
             for (const double off : {-0.06, -0.03, 0.0, 0.03, 0.06}) {
-                const auto a = fitted(aligned_off(off), scene, divergence);
-                EXPECT_LT(std::abs(error_of(a).x()), 0.012) << off << " " << sensors;
-                EXPECT_LT(std::abs(error_of(a).y()), 0.006) << off;
+                const auto a = fitted_table(aligned_off(off), scene, divergence);
+                EXPECT_LT(std::abs(table_error(a).x()), 0.012) << off << " " << sensors;
+                EXPECT_LT(std::abs(table_error(a).y()), 0.006) << off;
                 EXPECT_LT(std::abs(a.pose.position.z()), 1e-9);
                 EXPECT_EQ(a.status, gnomon::alignment::outcome::degenerate);
                 const Eigen::Vector3d ahead = where_table_is.direction_out({1, 0, 0});
                 const double deviation =
                     std::sqrt(ahead.dot(a.covariance.bottomRightCorner<3, 3>() * ahead));
                 EXPECT_LT(deviation, 0.02);
-                EXPECT_LT(std::abs(error_of(a).x()), 4.0 * deviation);
+                EXPECT_LT(std::abs(table_error(a).x()), 4.0 * deviation);
             }
         }
     }
@@ -138,42 +138,45 @@ TEST(silhouette_fit, finds_where_a_table_ends) {
 
 /// Where a surface goes on beyond one end, the other end decides.
 TEST(silhouette_fit, does_not_slide_onto_what_is_next_to_it) {
-    const table_scene scene(wide, true);
+    const table_scene scene(beam_width, true);
     for (const double off : {-0.04, 0.0, 0.04})
-        EXPECT_LT(std::abs(error_of(fitted(aligned_off(off), scene, wide)).x()), 0.02) << off;
+        EXPECT_LT(std::abs(table_error(fitted_table(aligned_off(off), scene, beam_width)).x()),
+                  0.02)
+            << off;
 }
 
 /// What is known to millimeters stays.
 TEST(silhouette_fit, leaves_what_is_known) {
-    const table_scene scene(wide);
+    const table_scene scene(beam_width);
     auto known = aligned_off(0.01);
     known.covariance = 1e-6 * gnomon::alignment::covariance_matrix::Identity();
-    const auto a = fitted(known, scene, wide);
+    const auto a = fitted_table(known, scene, beam_width);
     EXPECT_EQ(a.pose.position, known.pose.position);
     EXPECT_EQ(a.covariance, known.covariance);
 }
 
 /// An object that no ray meets stays, as one around the sensor does.
 TEST(silhouette_fit, without_rays_stays) {
-    const table_scene scene(wide);
+    const table_scene scene(beam_width);
     for (const auto& [x, y] : {std::pair(2.4, 40.0), std::pair(0.0, 0.0)}) {
         const auto lost = aligned_off(0.0, rigid_motion::on_ground(x, y, degrees(0)));
-        const auto a = fitted(lost, scene, wide);
+        const auto a = fitted_table(lost, scene, beam_width);
         EXPECT_LT((a.pose.position - lost.pose.position).norm(), 0.2);
         EXPECT_TRUE(a.covariance.allFinite());
     }
     gnomon::scan nothing;
     const std::vector<std::int32_t> none;
     const auto found = aligned_off(0.02);
-    const auto a = rec::detail::by_silhouette(
-        found, surface_of(dining_table), gnomon::visibility(nothing), {none, {}}, sharp, wide, up);
+    const auto a = rec::detail::by_silhouette(found, sampled_surface(dining_table),
+                                              gnomon::visibility(nothing), {none, {}}, table_noise,
+                                              beam_width, upwards);
     EXPECT_EQ(a.pose.position, found.pose.position);
 }
 
 /// Without a motion nothing changes, but rounding; the motions are those of the covariance.
 TEST(ground_motions, are_along_the_axes_of_the_covariance) {
     const auto found = aligned_off(0.0);
-    const rec::detail::ground_motions motions(found, surface_of(dining_table), up);
+    const rec::detail::ground_motions motions(found, sampled_surface(dining_table), upwards);
     const Eigen::Vector3d variances = motions.variances();
     EXPECT_NEAR(variances[0], 1e6, 1.0);
     EXPECT_GT(variances[1], variances[2]);
@@ -182,7 +185,7 @@ TEST(ground_motions, are_along_the_axes_of_the_covariance) {
     EXPECT_LT((same.pose.position - found.pose.position).norm(), 1e-12);
     EXPECT_LT((same.covariance - found.covariance).norm(), 1e-6);
     const auto shifted = motions.after({0.05, 0.0, 0.0}, variances.asDiagonal());
-    EXPECT_NEAR(std::abs(error_of(shifted).x() - error_of(found).x()), 0.05, 1e-6);
+    EXPECT_NEAR(std::abs(table_error(shifted).x() - table_error(found).x()), 0.05, 1e-6);
     EXPECT_LT((shifted.center - found.center - shifted.pose.position + found.pose.position).norm(),
               1e-9);
     // A turn about the center moves what is half of the mean side off by its length.
@@ -193,12 +196,12 @@ TEST(ground_motions, are_along_the_axes_of_the_covariance) {
 
 /// A surface of revolution does not turn, and its unknown turn stays unknown.
 TEST(ground_motions, of_a_surface_of_revolution_are_shifts) {
-    const auto round = surface_of(sim::furniture_models()[8]);
+    const auto round = sampled_surface(sim::furniture_models()[8]);
     ASSERT_EQ(round.symmetry().order, rec::vertical_symmetry::any_turn);
     auto found = aligned_off(0.0);
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) found.covariance(i, j) = 1e6 * up[i] * up[j];
-    const rec::detail::ground_motions motions(found, round, up);
+        for (int j = 0; j < 3; ++j) found.covariance(i, j) = 1e6 * upwards[i] * upwards[j];
+    const rec::detail::ground_motions motions(found, round, upwards);
     EXPECT_NEAR(motions.variances()[2], 0.0, 1e-9);
     const Eigen::Vector3d known(1e-4, 1e-6, 0.0);
     const auto a = motions.after({0.0, 0.0, 0.0}, known.asDiagonal());
