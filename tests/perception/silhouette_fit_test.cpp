@@ -31,7 +31,7 @@ using gnomon::degrees;
 using gnomon::rigid_motion;
 
 const gnomon::noise_curve table_noise = gnomon::constant_noise{0.004};
-const gnomon::angle beam_width = gnomon::radians(0.010);
+const gnomon::angle beams_at_table = gnomon::radians(0.010);
 const Eigen::Vector3d upwards(0.0, 0.0, 1.0);
 
 rec::surface_model sampled_surface(const sim::furniture_model& model) {
@@ -117,7 +117,7 @@ Eigen::Vector3d table_error(const gnomon::alignment& a) {
 
 /// A table that slides along itself is brought to where its ends are, and as certain as that.
 TEST(silhouette_fit, finds_where_a_table_ends) {
-    for (const gnomon::angle divergence : {degrees(0.0), beam_width}) {
+    for (const gnomon::angle divergence : {degrees(0.0), beams_at_table}) {
         for (const int sensors : {1, 2}) {
             const table_scene scene(divergence, false, sensors);
             for (const double off : {-0.06, -0.03, 0.0, 0.03, 0.06}) {
@@ -138,29 +138,29 @@ TEST(silhouette_fit, finds_where_a_table_ends) {
 
 /// Where a surface goes on beyond one end, the other end decides.
 TEST(silhouette_fit, does_not_slide_onto_what_is_next_to_it) {
-    const table_scene scene(beam_width, true);
+    const table_scene scene(beams_at_table, true);
     for (const double off : {-0.04, 0.0, 0.04})
-        EXPECT_LT(std::abs(table_error(fitted_table(aligned_off(off), scene, beam_width)).x()),
+        EXPECT_LT(std::abs(table_error(fitted_table(aligned_off(off), scene, beams_at_table)).x()),
                   0.02)
             << off;
 }
 
 /// What is known to millimeters stays.
 TEST(silhouette_fit, leaves_what_is_known) {
-    const table_scene scene(beam_width);
+    const table_scene scene(beams_at_table);
     auto known = aligned_off(0.01);
     known.covariance = 1e-6 * gnomon::alignment::covariance_matrix::Identity();
-    const auto a = fitted_table(known, scene, beam_width);
+    const auto a = fitted_table(known, scene, beams_at_table);
     EXPECT_EQ(a.pose.position, known.pose.position);
     EXPECT_EQ(a.covariance, known.covariance);
 }
 
 /// An object that no ray meets stays, as one around the sensor does.
 TEST(silhouette_fit, without_rays_stays) {
-    const table_scene scene(beam_width);
+    const table_scene scene(beams_at_table);
     for (const auto& [x, y] : {std::pair(2.4, 40.0), std::pair(0.0, 0.0)}) {
         const auto lost = aligned_off(0.0, rigid_motion::on_ground(x, y, degrees(0)));
-        const auto a = fitted_table(lost, scene, beam_width);
+        const auto a = fitted_table(lost, scene, beams_at_table);
         EXPECT_LT((a.pose.position - lost.pose.position).norm(), 0.2);
         EXPECT_TRUE(a.covariance.allFinite());
     }
@@ -169,7 +169,7 @@ TEST(silhouette_fit, without_rays_stays) {
     const auto found = aligned_off(0.02);
     const auto a = rec::detail::by_silhouette(found, sampled_surface(dining_table),
                                               gnomon::visibility(nothing), {none, {}}, table_noise,
-                                              beam_width, upwards);
+                                              beams_at_table, upwards);
     EXPECT_EQ(a.pose.position, found.pose.position);
 }
 
