@@ -17764,12 +17764,12 @@ class range_image {
     /// The unit vector from the view point through the middle of a pixel. (A template, as above.)
     template <class Pixel = pixel>
     [[nodiscard]] Eigen::Vector3d direction_of(const Pixel& at) const {
-        const auto turn = [](std::size_t i, std::size_t n) {  // of a half turn, from -1/2 to 1/2
-            return ((static_cast<double>(i) + 0.5) / static_cast<double>(n) - 0.5) *
-                   std::numbers::pi;
+        const auto turn = [](std::size_t i, std::size_t n) {  // from -1 to 1
+            return (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(n) - 1.0;
         };
-        const double azimuth = 2.0 * turn(at.azimuth, width_);
-        const double elevation = turn(at.elevation, height_), flat = std::cos(elevation);
+        const double azimuth = std::numbers::pi * turn(at.azimuth, width_);
+        const double elevation = std::numbers::pi / 2.0 * turn(at.elevation, height_);
+        const double flat = std::cos(elevation);
         return detail::combined(flat * std::cos(azimuth), axes_.x, flat * std::sin(azimuth),
                                 axes_.y, std::sin(elevation), axes_.z);
     }
@@ -27825,9 +27825,7 @@ template <class R, class S, class Normals, execution X, class Proj>
         return is_near_surface(index, start.point_out(x), options.max_distance);
     };
     const movable_cloud cloud(points, normals, options.noise, is_near, projection);
-    alignment result;
-    result.points = cloud.points.size();
-    result.pose = start;
+    alignment result{.pose = start, .points = cloud.points.size()};
     rigid_motion pose{start.rotation, start.point_out(cloud.centroid)};
     double largest = cloud.largest;
     for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(pose.position[a]));

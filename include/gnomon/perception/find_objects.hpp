@@ -116,8 +116,9 @@ class object_finder {
         is_fitted_ = true;
     }
 
-    /// Names and surfaces of the objects, by their numbers.
+    /// The names of the objects, by their numbers.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+    /// Their surfaces, likewise.
     [[nodiscard]] const std::vector<surface_model>& surfaces() const { return surfaces_; }
 
     /// Finds objects.
