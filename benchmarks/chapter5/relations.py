@@ -510,7 +510,7 @@ def covariances(tables):
 
 @relation("rooms", "5.10.6", "a room of 115,200 points in 0.5 s on two threads", OWN,
           "two fifths of the time are the alignment of some 200 objects at places, a third the segmentation of cells. The time was "
-          "measured a second time, alone, since other programs ran beside the first one; a third time it was 0.48 s")
+          "measured a second time, alone, since other programs ran during the first one; a third time it was 0.48 s")
 def room_time(tables):
     row = tables["time of a room"][0]
     return f"{row['s per room, median']:.2f} s, at most {row['most']:.2f} s, {row['points']:,} points", row["s per room, median"] <= 0.5
