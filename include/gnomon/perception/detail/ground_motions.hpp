@@ -18,6 +18,13 @@
 
 namespace gnomon::recognition::detail {
 
+/// Half of the mean of length and width of an object, at least a spacing of its samples [m]: a turn
+/// by 1 about the vertical moves its sides by about this.
+[[nodiscard]] inline double half_of_mean_side(const surface_model& model) {
+    const Eigen::Vector3d size = gnomon::detail::difference(model.high(), model.low());
+    return std::max(model.spacing(), 0.25 * (size.x() + size.y()));
+}
+
 /// Those of one object, from its alignment.
 class ground_motions {
   public:
@@ -28,9 +35,8 @@ class ground_motions {
         : found_(found),
           up_(up),
           first_(gnomon::detail::direction_of(gnomon::detail::orthogonal(up))),
-          second_(gnomon::detail::cross(up, first_)) {
-        const Eigen::Vector3d size = gnomon::detail::difference(model.high(), model.low());
-        half_ = std::max(model.spacing(), 0.25 * (size.x() + size.y()));
+          second_(gnomon::detail::cross(up, first_)),
+          half_(half_of_mean_side(model)) {
         Eigen::Matrix3d c = Eigen::Matrix3d::Zero();
         // A surface of revolution does not turn.
         const int first = model.symmetry().order == vertical_symmetry::any_turn ? 1 : 0;

@@ -16,6 +16,7 @@
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 #include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/verification.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -73,7 +74,7 @@ class image_of_surface {
     image_of_surface(const range_image& image, double spacing, std::ptrdiff_t band,
                      const image_plane& plane, const surface_model& model, const rigid_motion& pose)
         : image_(image), plane_(plane), band_(band) {
-        constexpr double lowest = 0.05;  // [m]; as in verifications: lower points are floor
+        constexpr double lowest = verification_options{}.lowest;  // lower points are floor
         for_each_facing_sample(model, pose, plane.viewpoint, lowest, [&](const facing_sample& s) {
             samples_.push_back(s);
             pixels_.push_back(image.pixel_of(s.at));

@@ -107,9 +107,9 @@ class silhouette_fit {
     }
 
   private:
-    /// Of the difference of shares of a ray, which are at most 1: rays next to each other err
-    /// together, so that each is worth less. Chosen on rooms of seeds 301 to 370, of .5 to 4.
-    static constexpr double variance = 4.0;
+    /// Of the difference of two shares of a ray, which is at most 1: rays next to each other err
+    /// together, so that each is worth less.
+    static constexpr double variance = 4.0;  // [1]; chosen on rooms of seeds 301 to 370, of .5 to 4
 
     [[nodiscard]] double cost(const ground_motions& motions, const ground_motions::motion& m) {
         const rigid_motion pose = motions.pose_after(m);

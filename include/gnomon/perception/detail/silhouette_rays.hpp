@@ -25,6 +25,7 @@
 #include <gnomon/perception/detail/image_of_surface.hpp>
 #include <gnomon/perception/detail/surface_drawing.hpp>
 #include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/verification.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -99,8 +100,8 @@ class silhouette_rays {
              const range_image::pixel& pixel, const facing_sample& face) {
         using gnomon::detail::difference, gnomon::detail::dot, gnomon::detail::scaled;
         constexpr double deviations = 3.0;  // of the noise: 99.7 % of a normal distribution
-        constexpr double tolerance = 0.01;  // [m]; that of verifications
-        constexpr double uneven = 0.005;    // [m]; chosen: of faces between samples
+        constexpr double tolerance = verification_options{}.tolerance;
+        constexpr double uneven = 0.005;  // [m]; chosen: of faces between samples
         const std::optional<point_index> index = image.index(pixel);
         if (!index) return;
         // Rays are not in the middle of their pixels: on a table that is seen at a low angle these

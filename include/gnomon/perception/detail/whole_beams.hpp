@@ -31,6 +31,7 @@
 #include <gnomon/normals/plane_fit.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/perception/detail/cells_of_object.hpp>
+#include <gnomon/perception/detail/ground_motions.hpp>
 #include <gnomon/recognition/detail/points_in_bounds.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 
@@ -144,9 +145,7 @@ struct whole_beams {
 /// @param shift  standard deviation [m]
 inline void add_shift_on_ground(alignment& found, const surface_model& model,
                                 const Eigen::Vector3d& up, double shift) {
-    const Eigen::Vector3d size = gnomon::detail::difference(model.high(), model.low());
-    const double half = std::max(model.spacing(), 0.25 * (size.x() + size.y()));
-    const double turn = shift / half;
+    const double turn = shift / half_of_mean_side(model);
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             const double upright = up[i] * up[j];
