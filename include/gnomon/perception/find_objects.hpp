@@ -144,7 +144,7 @@ class object_finder {
             result.objects = detail::winners_of(
                 std::move(hypotheses), at.scene, surfaces_, options.min_probability,
                 [&](found_object& h) { recognize(at.scene, h); }, of_cell, team);
-            detail::settle(result.objects, at.scene, surfaces_, options.divergence, team);
+            detail::settle(result.objects, at.scene, surfaces_, team);
             std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
             for (std::size_t i = 0; i < at.points.size(); ++i)
                 labels[at.points[i]] = of_cell[at.cells.of_point[i]];
@@ -189,7 +189,7 @@ class object_finder {
                                               detail::improved_roughly(at.scene, h, model), model);
                 recognize(at.scene, h);
                 if (h.probability >= detail::scene_evidence::worth)
-                    h.aligned = at.scene.refined(h.aligned, model, options.divergence);
+                    h.aligned = at.scene.refined(h.aligned, model);
             });
         });
         return result;
@@ -231,7 +231,8 @@ class object_finder {
         const detail::scene_evidence scene(
             cells, visibility(points, {.noise = noise}, team, projection),
             {seen.groups.labels(), [&](point_index i) { return position[i]; }},
-            votes_.votes(seen.views, team), noise, *seen.ground, team, mixed ? &*mixed : nullptr);
+            votes_.votes(seen.views, team), noise, *seen.ground, options.divergence, team,
+            mixed ? &*mixed : nullptr);
         f(scene_of{kept, cells, scene});
         return seen;
     }

@@ -49,6 +49,17 @@ struct find_objects_options {
     }
 };
 
+/// How an object at a pose agrees with what the rays next to it hit and what they pass.
+struct silhouette_match {
+    std::size_t rays = 0;  ///< on the object and around it, with nothing in front of it
+    /// The rays that hit the object, by shares of beams, of those that do so by the model or in the
+    /// scan.
+    double overlap = 0.0;
+    /// Of the rays that pass the object, those that hit a surface which goes on beyond it: large
+    /// for a part of something larger. 0.5 if none passes.
+    double beyond = 0.5;
+};
+
 /// An object that was found.
 struct found_object {
     std::size_t object = 0;  ///< its number
@@ -58,7 +69,8 @@ struct found_object {
     alignment aligned;
     /// What the scan shows of it, before its pose was refined by whole beams and silhouette.
     verification evidence;
-    double votes = 0.0;  ///< for its pose: the sum over parts, each at most 1
+    silhouette_match silhouette;  ///< before likewise
+    double votes = 0.0;           ///< for its pose: the sum over parts, each at most 1
     /// Natural logarithm of the probability that a recognizer gives the name of this object, by the
     /// parts of the points on its surface; 0 if it was not recognized.
     double log_recognized = 0.0;

@@ -86,11 +86,14 @@ namespace gnomon::recognition::detail {
     });
 }
 
-/// A hypothesis, aligned carefully from its pose.
+/// A hypothesis, aligned carefully from its pose, and compared by its silhouette.
 [[nodiscard]] inline found_object aligned_carefully(const scene_evidence& scene,
                                                     const found_object& rough,
                                                     const surface_model& model) {
-    return scene.aligned(rough.object, rough.aligned.pose, model, scene_evidence::careful);
+    found_object careful =
+        scene.aligned(rough.object, rough.aligned.pose, model, scene_evidence::careful);
+    scene.compare_silhouette(careful, model);
+    return careful;
 }
 
 /// An object that may stand at a place: aligned roughly from there.
@@ -136,14 +139,14 @@ namespace gnomon::recognition::detail {
 
 /// Moves objects that were found, each aligned carefully, to the poses that fit best, and refines
 /// these. They are as probable as before.
-/// @param divergence  full angle of the beams
 inline void settle(std::vector<found_object>& objects, const scene_evidence& scene,
-                   std::span<const surface_model> models, angle divergence, const auto& run) {
+                   std::span<const surface_model> models, const auto& run) {
     run(objects.size(), [&](std::size_t i) {
         found_object& o = objects[i];
         const surface_model& model = models[o.object];
         found_object settled = improved_carefully(scene, o, model);
-        settled.aligned = scene.refined(settled.aligned, model, divergence);
+        settled.aligned = scene.refined(settled.aligned, model);
+        settled.silhouette = o.silhouette;
         settled.log_recognized = o.log_recognized;
         settled.probability = o.probability;
         o = std::move(settled);

@@ -58,10 +58,11 @@ class scene_evidence {
     static constexpr std::size_t fewest = 20;  // chosen: of a stool at 5 m half face the sensor
 
     /// Keeps references to cells and mixed, and what the points refer to.
-    /// @param points  of which `seen` has images
+    /// @param points      of which `seen` has images
+    /// @param divergence  full angle of the beams
     scene_evidence(const voxel_grid::means& cells, visibility seen, imaged_points points,
-                   cast_votes votes, const noise_curve& noise, const plane& ground, const auto& run,
-                   const mixed_cells* mixed = nullptr)
+                   cast_votes votes, const noise_curve& noise, const plane& ground, angle divergence,
+                   const auto& run, const mixed_cells* mixed = nullptr)
         : cells_(cells),
           index_(cells, run),
           surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
@@ -70,6 +71,7 @@ class scene_evidence {
           votes_(std::move(votes)),
           noise_(noise),
           ground_(ground),
+          divergence_(divergence),
           mixed_(mixed) {}
 
     /// Places at which objects may stand: those for which parts vote, and others where their
@@ -120,13 +122,19 @@ class scene_evidence {
 
     /// The alignment of an object that was found, by the cells that whole beams hit, and by its
     /// silhouette.
-    /// @param divergence  full angle of the beams
-    [[nodiscard]] alignment refined(const alignment& found, const surface_model& model,
-                                    angle divergence) const {
+    [[nodiscard]] alignment refined(const alignment& found, const surface_model& model) const {
         const alignment whole = aligned_by_whole_beams(
             found, model,
-            {cells_, index_, surface_, mixed_, noise_, ground_.normal, divergence, careful.cells});
-        return by_silhouette(whole, model, seen_, points_, noise_, divergence, ground_.normal);
+            {cells_, index_, surface_, mixed_, noise_, ground_.normal, divergence_, careful.cells});
+        return by_silhouette(whole, model, seen_, points_, noise_, divergence_, ground_.normal);
+    }
+
+    /// Compares a hypothesis with the scan by its silhouette, and corrects its probability.
+    void compare_silhouette(found_object& h, const surface_model& model) const {
+        if (h.probability < worth) return;
+        const rigid_motion& pose = h.aligned.pose;
+        h.silhouette = silhouette_fit(seen_, points_, noise_, divergence_, model, pose).match(pose);
+        h.probability = probability_of(h);
     }
 
     /// Corrects the probability of a hypothesis after the points on its surface were recognized;
@@ -226,6 +234,7 @@ class scene_evidence {
     cast_votes votes_;
     noise_curve noise_;
     plane ground_;
+    angle divergence_;          // full angle of the beams
     const mixed_cells* mixed_;  // null if beams are narrow
 };
 

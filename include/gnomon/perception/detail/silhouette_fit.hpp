@@ -26,6 +26,7 @@
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/ground_motions.hpp>
 #include <gnomon/perception/detail/silhouette_rays.hpp>
+#include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 
 namespace gnomon::recognition::detail {
@@ -44,6 +45,19 @@ class silhouette_fit {
     }
 
     [[nodiscard]] bool has_rays() const { return !views_.empty(); }
+
+    /// How it agrees with the object at a pose.
+    [[nodiscard]] silhouette_match match(const rigid_motion& pose) {
+        silhouette_match result;
+        silhouette_shares sums;
+        for (silhouette_rays& view : views_) {
+            result.rays += view.size();
+            view.add_shares(pose, sums);
+        }
+        if (sums.in_any > 0.0) result.overlap = sums.in_both / sums.in_any;
+        if (sums.passing > 0.0) result.beyond = sums.beyond / sums.passing;
+        return result;
+    }
 
     /// The motion of the least sum of the misfit of the silhouette and of the squared motion in
     /// deviations, by a search along the axes with steps that become smaller.

@@ -36,6 +36,14 @@ struct imaged_points {
     std::function<Eigen::Vector3d(point_index)> at;  ///< [m]
 };
 
+/// Sums over rays, in rays.
+struct silhouette_shares {
+    double in_both = 0.0;  ///< of the shares that hit the object both in the scan and by the model
+    double in_any = 0.0;   ///< of the shares that do so in one of them
+    double passing = 0.0;  ///< rays that pass the model
+    double beyond = 0.0;   ///< of these, the shares that hit its surface in the scan
+};
+
 /// The rays of one image.
 class silhouette_rays {
   public:
@@ -82,6 +90,19 @@ class silhouette_rays {
             sum += weight(r, shares.back()) * (shares.back() - r.share) * (shares.back() - r.share);
         }
         return sum;
+    }
+
+    /// Adds the shares of the rays that hit the object at a pose.
+    void add_shares(const rigid_motion& pose, silhouette_shares& sums) {
+        drawing_->draw(pose);
+        for (const silhouette_ray& r : rays_) {
+            const double expected = drawing_->share(r.at), seen = std::clamp(r.share, 0.0, 1.0);
+            sums.in_both += std::min(expected, seen);
+            sums.in_any += std::max(expected, seen);
+            if (expected > 0.0) continue;
+            sums.passing += 1.0;
+            sums.beyond += seen;
+        }
     }
 
   private:
