@@ -2,9 +2,9 @@
 /// @file
 /// Finds objects in a scan of a whole room, with their places, although they touch others or are
 /// half hidden. Groups of points, as in perceive_views(), have parts, but none is one object: parts
-/// vote for objects and places, and the surface of each object is compared with a grid of places.
-/// Each such hypothesis is aligned with the points and verified by what the sensor saw, and
-/// hypotheses compete for points.
+/// vote for objects and places, and the surface of each object is compared with a grid of places
+/// in what is left. Each such hypothesis is aligned with the points and verified by what the sensor
+/// saw, by samples of its surface and by its silhouette, and hypotheses compete for points.
 ///
 ///     namespace rec = gnomon::recognition;
 ///     rec::object_finder finder;
@@ -127,7 +127,7 @@ class object_finder {
     /// @return none if no ground was found
     /// @throws std::invalid_argument  for options that are not valid, or before fit()
     /// Complexity: O(n log n), and alignments of 100 cells with O(log n) for each of 150 samples
-    /// and each view point, at the places of most votes of each object and 8 by its surface in 64
+    /// and each view point, at the places of most votes of each object and 10 by its surface in 64
     /// m^2.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -138,11 +138,9 @@ class object_finder {
         const auto& team = gnomon::detail::staying(run);
         result.points = segments(std::vector<std::int32_t>(std::ranges::size(points), unlabeled));
         result.seen = in_scene(points, options, team, projection, [&](const scene_of& at) {
-            auto hypotheses =
-                detail::hypotheses_at(at.scene.places(surfaces_, team), at.scene, surfaces_, team);
             std::vector<std::int32_t> of_cell;
-            result.objects = detail::winners_of(
-                std::move(hypotheses), at.scene, surfaces_, options.min_probability,
+            result.objects = detail::objects_in(
+                at.scene, surfaces_, options.min_probability,
                 [&](found_object& h) { recognize(at.scene, h); }, of_cell, team);
             detail::settle(result.objects, at.scene, surfaces_, team);
             std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);

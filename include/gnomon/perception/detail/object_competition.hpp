@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <gnomon/core/point.hpp>
+#include <gnomon/perception/detail/object_hypotheses.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/surface_model.hpp>
@@ -82,6 +83,24 @@ namespace gnomon::recognition::detail {
     for (std::int32_t& label : of_cell)
         if (label != unlabeled) label = place[static_cast<std::size_t>(label)];
     return sorted;
+}
+
+/// The objects in a scene, at poses of careful alignments. Those for which parts vote take their
+/// cells; then the surfaces of all objects are searched in what these leave, where fewer places are
+/// alike; and all hypotheses compete. Parameters are those of winners_of().
+[[nodiscard]] inline std::vector<found_object> objects_in(
+    const scene_evidence& scene, std::span<const surface_model> surfaces, double min_probability,
+    const auto& recognize, std::vector<std::int32_t>& of_cell, const auto& run) {
+    const auto winners = [&](const std::vector<found_object>& some) {
+        return winners_of(some, scene, surfaces, min_probability, recognize, of_cell, run);
+    };
+    auto hypotheses = hypotheses_at(scene.voted_places(run), scene, surfaces, run);
+    (void)winners(hypotheses);
+    const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
+    const auto others =
+        hypotheses_at(scene.searched_places(surfaces, is_left, run), scene, surfaces, run);
+    hypotheses.insert(hypotheses.end(), others.begin(), others.end());
+    return winners(hypotheses);
 }
 
 }  // namespace gnomon::recognition::detail
