@@ -181,7 +181,7 @@ TEST(find_objects, verifies_hypotheses_of_others) {
     const auto wide = finder.verify(room.scan, places,
                                     {.noise = find_noise, .divergence = gnomon::radians(0.01)});
     for (std::size_t i = 0; i < places.size(); ++i) {
-        EXPECT_EQ(wide[i].probability, verified[i].probability);
+        EXPECT_EQ(wide[i].probability > 0.5, verified[i].probability > 0.5) << i;
         EXPECT_LT((wide[i].aligned.pose.position - verified[i].aligned.pose.position).norm(), 0.02);
     }
     EXPECT_EQ(wide[4].aligned.pose.position, places[4].pose.position);  // as no points are there

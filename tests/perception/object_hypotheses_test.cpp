@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,10 @@
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
+#include <gnomon/perception/detail/object_probability.hpp>
+#include <gnomon/perception/detail/pose_search.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
+#include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/simulation.hpp>
 #include <gnomon/simulation/sample_surface.hpp>
@@ -39,7 +43,8 @@ const gnomon::angle wide = gnomon::radians(0.010);
 /// A chair alone on a floor, which votes know nothing of, seen by beams of some width.
 class chair_in_scene {
   public:
-    explicit chair_in_scene(gnomon::angle divergence = narrow) {
+    /// @param assumed  width of the beams in the scene
+    explicit chair_in_scene(gnomon::angle divergence = narrow, gnomon::angle assumed = narrow) {
         sim::beam beam{.sigma = 0.005, .seed = 5};
         if (divergence > narrow)
             beam.footprint = {
@@ -66,7 +71,8 @@ class chair_in_scene {
         scene_.emplace(cells_, gnomon::visibility(scan, {.noise = scene_noise}),
                        rec::detail::imaged_points{
                            groups_, [this](gnomon::point_index i) { return points_[i]; }},
-                       rec::cast_votes({}, 1), scene_noise, gnomon::plane{}, gnomon::sequential{});
+                       rec::cast_votes({}, 1), scene_noise, gnomon::plane{}, assumed,
+                       gnomon::sequential{});
     }
 
     [[nodiscard]] const rec::detail::scene_evidence& scene() const { return *scene_; }
@@ -140,6 +146,53 @@ TEST(object_hypotheses, are_none_where_nothing_is) {
             .empty());
 }
 
+/// The surface of an object is found in the cells that are left, and in none of those that are not.
+TEST(object_hypotheses, are_searched_in_what_is_left) {
+    const chair_in_scene chair;
+    const auto places_in = [&](bool is_left) {
+        return chair.scene().searched_places(
+            chair.surfaces(), [&](gnomon::point_index) { return is_left; }, gnomon::sequential{});
+    };
+    EXPECT_TRUE(places_in(false).empty());
+    const auto places = places_in(true);
+    EXPECT_LE(places.size(), rec::detail::pose_search::most);
+    EXPECT_TRUE(std::ranges::any_of(places, [](const rec::object_place& p) {
+        return (p.pose.position - where_chair_is.position).norm() < 0.15;
+    }));
+}
+
+/// What was compared by its silhouette is more probable the better this agrees, and less the more a
+/// surface goes on beyond it or the sensor saw through; without rays, samples decide.
+TEST(object_hypotheses, are_probable_by_their_silhouettes) {
+    rec::found_object o;
+    o.evidence = {.samples = 500, .facing = 300, .supported = 200, .mismatched = 20, .hidden = 80};
+    o.evidence.points = o.evidence.near_surface = 300;
+    o.evidence.explained = o.evidence.on_surface = 280;
+    o.votes = 0.5;
+    const double by_samples = rec::detail::probability_of(o);
+    o.silhouette = {.rays = 0, .overlap = 0.9, .beyond = 0.0};
+    EXPECT_EQ(rec::detail::probability_of(o), by_samples);
+    o.silhouette.rays = 800;
+    const double good = rec::detail::probability_of(o);
+    EXPECT_GT(good, 0.9);
+    auto worse = o;
+    worse.silhouette.overlap = 0.5;
+    EXPECT_LT(rec::detail::probability_of(worse), good);
+    worse = o;
+    worse.silhouette.beyond = 0.9;
+    EXPECT_LT(rec::detail::probability_of(worse), 0.5);
+    worse = o;
+    worse.evidence.seen_through = 50;
+    EXPECT_LT(rec::detail::probability_of(worse), 0.5);
+    const chair_in_scene chair(wide, wide);
+    auto found = chair.scene().aligned(0, where_chair_is, chair.surfaces()[0],
+                                       rec::detail::scene_evidence::careful);
+    chair.scene().compare_silhouette(found, chair.surfaces()[0]);
+    EXPECT_GT(found.silhouette.rays, 100u);
+    EXPECT_GT(found.silhouette.overlap, 0.7);
+    EXPECT_EQ(found.probability, rec::detail::probability_of(found));
+}
+
 /// What is found settles at the true pose, as probable as before, from one 9 cm away at which
 /// it was left.
 TEST(object_hypotheses, settle_where_they_fit_best) {
@@ -148,7 +201,7 @@ TEST(object_hypotheses, settle_where_they_fit_best) {
     found[0].aligned.pose = where_chair_is * rigid_motion::on_ground(0.0, 0.09, degrees(0.0));
     found[0].evidence.samples = found[0].evidence.seen_through = 1000;
     found[0].probability = 0.7;
-    rec::detail::settle(found, chair.scene(), chair.surfaces(), narrow, gnomon::sequential{});
+    rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
     EXPECT_LT(distance_off(found[0]), 0.01);
     EXPECT_EQ(found[0].probability, 0.7);
     EXPECT_GT(found[0].evidence.supported, 10 * found[0].evidence.seen_through);
@@ -157,13 +210,12 @@ TEST(object_hypotheses, settle_where_they_fit_best) {
 /// Beams that average at edges shift the pose away from the sensor. The points that whole beams hit
 /// do not, and their covariance holds.
 TEST(object_hypotheses, settle_by_whole_beams) {
-    const chair_in_scene chair(wide);
-    const auto settled_for = [&](gnomon::angle divergence) {
+    const auto settled_for = [&](gnomon::angle assumed) {
+        const chair_in_scene chair(wide, assumed);
         const auto start = where_chair_is * rigid_motion::on_ground(0.01, 0.0, degrees(1.0));
         std::vector<rec::found_object> found{chair.scene().aligned(
             0, start, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
-        rec::detail::settle(found, chair.scene(), chair.surfaces(), divergence,
-                            gnomon::sequential{});
+        rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
         return found[0].aligned;
     };
     const auto error_of = [&](const gnomon::alignment& a) {
@@ -182,16 +234,14 @@ TEST(object_hypotheses, settle_by_whole_beams) {
 
 /// Where no whole beam hits the object, it stays where it is, less certain.
 TEST(object_hypotheses, stay_without_whole_beams) {
-    const chair_in_scene chair;
-    std::vector<rec::found_object> sharp{chair.scene().aligned(
-        0, where_chair_is, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
-    auto blurred = sharp;
-    const auto settle = [&](auto& found, gnomon::angle divergence) {
-        rec::detail::settle(found, chair.scene(), chair.surfaces(), divergence,
-                            gnomon::sequential{});
+    const auto settled_for = [&](gnomon::angle assumed) {
+        const chair_in_scene chair(narrow, assumed);
+        std::vector<rec::found_object> found{chair.scene().aligned(
+            0, where_chair_is, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
+        rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
+        return found;
     };
-    settle(sharp, narrow);
-    settle(blurred, degrees(45.0));
+    const auto sharp = settled_for(narrow), blurred = settled_for(degrees(45.0));
     EXPECT_EQ(blurred[0].aligned.pose.position, sharp[0].aligned.pose.position);
     EXPECT_LT(distance_off(sharp[0]), 0.01);
     EXPECT_TRUE(sharp[0].aligned.is_usable());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -171,6 +172,57 @@ TEST(silhouette_fit, without_rays_stays) {
                                               gnomon::visibility(nothing), {none, {}}, table_noise,
                                               beams_at_table, upwards);
     EXPECT_EQ(a.pose.position, found.pose.position);
+}
+
+rec::silhouette_match match_of(const sim::furniture_model& model, const table_scene& scene,
+                               const rigid_motion& pose, gnomon::angle divergence) {
+    const rec::surface_model surface = sampled_surface(model);
+    return rec::detail::silhouette_fit(
+               gnomon::visibility(scene.scan, {.noise = table_noise}),
+               {scene.groups, [&](gnomon::point_index i) { return scene.scan.points[i]; }},
+               table_noise, divergence, surface, pose)
+        .match(pose);
+}
+
+/// A silhouette agrees with the object at its pose, and less where it is shifted.
+TEST(silhouette_match, is_best_at_the_pose) {
+    for (const gnomon::angle divergence : {degrees(0.0), beams_at_table}) {
+        const table_scene scene(divergence);
+        const auto at = match_of(dining_table, scene, where_table_is, divergence);
+        EXPECT_GT(at.rays, 500u);
+        EXPECT_GT(at.overlap, 0.85);
+        EXPECT_LT(at.beyond, 0.1);
+        double before = at.overlap;
+        for (const double off : {0.1, 0.3, 0.6}) {
+            const auto shifted = match_of(
+                dining_table, scene,
+                where_table_is * rigid_motion::on_ground(off, 0.0, degrees(0.0)), divergence);
+            EXPECT_LT(shifted.overlap, before) << off;
+            EXPECT_GT(shifted.beyond, at.beyond) << off;
+            before = shifted.overlap;
+        }
+    }
+}
+
+/// Of a part of something larger, the surface goes on beyond the silhouette: here of half a table.
+TEST(silhouette_match, tells_a_part_from_a_whole) {
+    const table_scene scene(beams_at_table);
+    const auto whole = match_of(dining_table, scene, where_table_is, beams_at_table);
+    sim::furniture_model smaller = dining_table;
+    std::get<sim::table>(smaller.piece).length *= 0.5;
+    const auto part = match_of(smaller, scene, where_table_is, beams_at_table);
+    EXPECT_GT(part.beyond, whole.beyond + 0.2);
+    EXPECT_LT(part.overlap, whole.overlap);
+}
+
+/// What no ray meets is not known.
+TEST(silhouette_match, of_no_rays_is_none) {
+    const table_scene scene(beams_at_table);
+    const auto none = match_of(dining_table, scene, rigid_motion::on_ground(2.4, 40.0, degrees(0)),
+                               beams_at_table);
+    EXPECT_EQ(none.rays, 0u);
+    EXPECT_EQ(none.overlap, 0.0);
+    EXPECT_EQ(none.beyond, 0.25);
 }
 
 /// Without a motion nothing changes, but rounding; the motions are those of the covariance.

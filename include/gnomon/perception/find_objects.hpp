@@ -157,7 +157,7 @@ class object_finder {
     /// @param places   m objects, each at most 10 cm and 15 degrees from where it is
     /// @param options  as above; the least probability is not used
     /// @return m hypotheses in the order of the places; those with too few points, and all if no
-    ///         ground was found, are of probability 0. Poses of less than 0.05 are not refined
+    ///         ground was found, are of probability 0. Poses of less than 0.01 are not refined
     /// @throws std::invalid_argument  as above, or if there is no such object or a pose is no rigid
     ///                                motion
     /// Complexity: O(n log n), and for each place some alignments as above.

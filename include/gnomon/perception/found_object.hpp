@@ -36,7 +36,7 @@ struct find_objects_options {
     /// rest on the others, where these determine them, and covariances include a shift of
     /// edges, by 3.5 % of the width of a beam, else 20 %.
     angle divergence = degrees(0.0);
-    /// The probability of an object from which on it is found; 0.05 if it is less. Formula: more
+    /// The probability of an object from which on it is found; 0.01 if it is less. Formula: more
     /// probable than not.
     double min_probability = 0.5;
 
@@ -56,8 +56,9 @@ struct silhouette_match {
     /// scan.
     double overlap = 0.0;
     /// Of the rays that pass the object, those that hit a surface which goes on beyond it: large
-    /// for a part of something larger. 0.5 if none passes.
-    double beyond = 0.5;
+    /// for a part of something larger. Where few rays pass it, nearer to 0.25, which stands for 20
+    /// further rays.
+    double beyond = 0.25;
 };
 
 /// An object that was found.
