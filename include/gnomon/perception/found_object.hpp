@@ -56,7 +56,7 @@ struct silhouette_match {
     /// scan.
     double overlap = 0.0;
     /// Of the rays that pass the object, those that hit a surface which goes on beyond it: large
-    /// for a part of something larger. Where few rays pass it, nearer to 0.25, which stands for 20
+    /// for a part of something larger. Where few rays pass it, nearer to 0.25, which stands for 5
     /// further rays.
     double beyond = 0.25;
 };

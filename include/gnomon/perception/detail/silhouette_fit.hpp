@@ -55,7 +55,7 @@ class silhouette_fit {
             view.add_shares(pose, sums);
         }
         if (sums.in_any > 0.0) result.overlap = sums.in_both / sums.in_any;
-        constexpr double few = 20.0;      // rays; chosen: a scan without its floor has hardly any
+        constexpr double few = 5.0;       // rays; chosen: a scan without its floor has hardly any
         constexpr double unknown = 0.25;  // [1]; chosen: neither alone nor a part
         result.beyond = (sums.beyond + few * unknown) / (sums.passing + few);
         return result;
