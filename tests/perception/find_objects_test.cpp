@@ -153,6 +153,18 @@ TEST(find_objects, finds_nothing_where_nothing_is) {
     EXPECT_EQ(found.points.size(), 0u);
 }
 
+/// What is clear is found also by those who ask for what is less probable.
+TEST(find_objects, finds_at_least_as_much_where_less_is_enough) {
+    const small_room room;
+    const auto found = finder_of_two()(room.scan, {.noise = find_noise});
+    const auto more = finder_of_two()(room.scan, {.noise = find_noise, .min_probability = 0.0});
+    ASSERT_GE(more.objects.size(), found.objects.size());
+    for (std::size_t i = 0; i < found.objects.size(); ++i) {
+        EXPECT_EQ(more.objects[i].object, found.objects[i].object);
+        EXPECT_EQ(more.objects[i].aligned.pose.position, found.objects[i].aligned.pose.position);
+    }
+}
+
 /// The right object is probable at its place, another one there is not.
 TEST(find_objects, verifies_hypotheses_of_others) {
     const small_room room;

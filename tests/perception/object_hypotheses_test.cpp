@@ -205,6 +205,7 @@ TEST(object_hypotheses, settle_where_they_fit_best) {
     EXPECT_LT(distance_off(found[0]), 0.01);
     EXPECT_EQ(found[0].probability, 0.7);
     EXPECT_GT(found[0].evidence.supported, 10 * found[0].evidence.seen_through);
+    EXPECT_GT(found[0].silhouette.overlap, 0.7);  // that of the pose at which it settled
 }
 
 /// Beams that average at edges shift the pose away from the sensor. The points that whole beams hit

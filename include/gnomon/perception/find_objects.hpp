@@ -2,9 +2,10 @@
 /// @file
 /// Finds objects in a scan of a whole room, with their places, although they touch others or are
 /// half hidden. Groups of points, as in perceive_views(), have parts, but none is one object: parts
-/// vote for objects and places, and the surface of each object is compared with a grid of places
-/// in what is left. Each such hypothesis is aligned with the points and verified by what the sensor
-/// saw, by samples of its surface and by its silhouette, and hypotheses compete for points.
+/// vote for objects and places, and in the points that the objects found by votes leave, the
+/// surface of each object is compared with a grid of places. Each such hypothesis is aligned with
+/// the points and verified by what the sensor saw, by samples of its surface and by its silhouette,
+/// and hypotheses compete for points.
 ///
 ///     namespace rec = gnomon::recognition;
 ///     rec::object_finder finder;
@@ -128,7 +129,7 @@ class object_finder {
     /// @throws std::invalid_argument  for options that are not valid, or before fit()
     /// Complexity: O(n log n), and alignments of 100 cells with O(log n) for each of 150 samples
     /// and each view point, at the places of most votes of each object and 10 by its surface in 64
-    /// m^2.
+    /// m^2; and a drawing of the silhouette of each of these that is worth it.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] found_objects operator()(const R& points,

@@ -34,7 +34,8 @@ struct find_objects_options {
     /// Full angle of the beams; 0 for narrow ones. Wide beams return points that are behind edges
     /// by up to half of their width, and points between two surfaces: the final poses of objects
     /// rest on the others, where these determine them, and covariances include a shift of
-    /// edges, by 3.5 % of the width of a beam, else 20 %.
+    /// edges, by 3.5 % of the width of a beam, else 20 %. Silhouettes are compared as beams of this
+    /// width see them, so that probabilities depend on it, too.
     angle divergence = degrees(0.0);
     /// The probability of an object from which on it is found; 0.01 if it is less. Formula: more
     /// probable than not.
@@ -49,15 +50,16 @@ struct find_objects_options {
     }
 };
 
-/// How an object at a pose agrees with what the rays next to it hit and what they pass.
+/// How the silhouette of an object at a pose agrees with the scan.
 struct silhouette_match {
-    std::size_t rays = 0;  ///< on the object and around it, with nothing in front of it
-    /// The rays that hit the object, by shares of beams, of those that do so by the model or in the
-    /// scan.
+    /// On the object and around it, with nothing in front of it; 0 if it was not compared.
+    std::size_t rays = 0;
+    /// Intersection over union, from 0 to 1: the shares of beams that hit the object both by the
+    /// model and in the scan, of those that hit it in at least one of the two.
     double overlap = 0.0;
-    /// Of the rays that pass the object, those that hit a surface which goes on beyond it: large
-    /// for a part of something larger. Where few rays pass it, nearer to 0.25, which stands for 5
-    /// further rays.
+    /// Of the rays that pass the model, the share that hits in the scan what continues one of its
+    /// faces, from 0 to 1: large if the object is a part of something larger. It is shrunk towards
+    /// this value, with the weight of 5 rays.
     double beyond = 0.25;
 };
 
@@ -70,7 +72,7 @@ struct found_object {
     alignment aligned;
     /// What the scan shows of it, before its pose was refined by whole beams and silhouette.
     verification evidence;
-    silhouette_match silhouette;  ///< before likewise
+    silhouette_match silhouette;  ///< likewise before
     double votes = 0.0;           ///< for its pose: the sum over parts, each at most 1
     /// Natural logarithm of the probability that a recognizer gives the name of this object, by the
     /// parts of the points on its surface; 0 if it was not recognized.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -20,6 +21,17 @@
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::recognition::detail {
+
+/// Corrects the probabilities of the hypotheses that would be found without that, unless it was
+/// done before.
+inline void recognize_all(std::vector<found_object>& hypotheses, double least,
+                          const auto& recognize, const auto& run) {
+    run(hypotheses.size(), [&](std::size_t i) {
+        found_object& h = hypotheses[i];
+        const bool is_recognized = h.log_recognized < 0.0;
+        if (h.probability >= least && !is_recognized) recognize(h);
+    });
+}
 
 /// The most probable hypotheses, of which each explains cells of its own.
 ///
@@ -42,11 +54,7 @@ namespace gnomon::recognition::detail {
     std::vector<found_object> found;
     while (true) {
         const std::size_t before = found.size();
-        run(hypotheses.size(), [&](std::size_t i) {
-            found_object& h = hypotheses[i];
-            const bool is_recognized = h.log_recognized < 0.0;
-            if (h.probability >= least && !is_recognized) recognize(h);
-        });
+        recognize_all(hypotheses, least, recognize, run);
         std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
         std::vector<found_object> others;
         for (found_object& h : hypotheses) {
@@ -85,22 +93,26 @@ namespace gnomon::recognition::detail {
     return sorted;
 }
 
-/// The objects in a scene, at poses of careful alignments. Those for which parts vote take their
-/// cells; then the surfaces of all objects are searched in what these leave, where fewer places are
-/// alike; and all hypotheses compete. Parameters are those of winners_of().
+/// The objects in a scene, at poses of careful alignments. First the hypotheses at voted places
+/// compete, and the winners take their cells. Then the surfaces of all objects are searched in the
+/// remaining cells, where fewer wrong places fit. Finally all hypotheses compete again.
+/// Parameters, result and complexity are those of winners_of().
 [[nodiscard]] inline std::vector<found_object> objects_in(
     const scene_evidence& scene, std::span<const surface_model> surfaces, double min_probability,
     const auto& recognize, std::vector<std::int32_t>& of_cell, const auto& run) {
-    const auto winners = [&](const std::vector<found_object>& some) {
-        return winners_of(some, scene, surfaces, min_probability, recognize, of_cell, run);
+    const auto winners = [&](std::vector<found_object> some, double least) {
+        return winners_of(std::move(some), scene, surfaces, least, recognize, of_cell, run);
     };
+    // Who asks for less probable objects, too, does not want these to take cells from others.
+    const double clear = std::max(min_probability, find_objects_options{}.min_probability);
     auto hypotheses = hypotheses_at(scene.voted_places(run), scene, surfaces, run);
-    (void)winners(hypotheses);
+    recognize_all(hypotheses, clear, recognize, run);
+    (void)winners(hypotheses, clear);
     const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
-    const auto others =
+    auto others =
         hypotheses_at(scene.searched_places(surfaces, is_left, run), scene, surfaces, run);
-    hypotheses.insert(hypotheses.end(), others.begin(), others.end());
-    return winners(hypotheses);
+    std::ranges::move(others, std::back_inserter(hypotheses));
+    return winners(std::move(hypotheses), min_probability);
 }
 
 }  // namespace gnomon::recognition::detail

@@ -145,8 +145,8 @@ inline void settle(std::vector<found_object>& objects, const scene_evidence& sce
         found_object& o = objects[i];
         const surface_model& model = models[o.object];
         found_object settled = improved_carefully(scene, o, model);
+        settled.silhouette = scene.silhouette_of(model, settled.aligned.pose);
         settled.aligned = scene.refined(settled.aligned, model);
-        settled.silhouette = o.silhouette;
         settled.log_recognized = o.log_recognized;
         settled.probability = o.probability;
         o = std::move(settled);

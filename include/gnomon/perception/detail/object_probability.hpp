@@ -12,7 +12,9 @@
 
 namespace gnomon::recognition::detail {
 
-/// A logistic regression.
+/// Logistic regression.
+/// @param weights    log odds per variable
+/// @param intercept  log odds if all variables are 0
 template <std::size_t n>
 [[nodiscard]] double logistic(const std::array<double, n>& variables,
                               const std::array<double, n>& weights, double intercept) {
@@ -21,28 +23,34 @@ template <std::size_t n>
     return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
-/// The probability of a hypothesis by its evidence: by its silhouette, once this was compared, or
-/// else by samples of its surface alone.
+/// The probability of a hypothesis by its evidence: by its silhouette if rays show it, otherwise by
+/// samples of its surface alone.
 [[nodiscard]] inline double probability_of(const found_object& o) {
     const verification& v = o.evidence;
     const std::size_t hits = v.seen_through + v.supported;
     const double through =
         hits == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(hits);
-    constexpr double no_votes = 0.05;  // chosen: stands for none, in the weights below too
+    constexpr double no_votes = 0.05;  // chosen: stands for none, in both fits
     const double votes = std::log(no_votes + o.votes);
-    if (const silhouette_match& s = o.silhouette; s.rays > 0)
-        // Chosen: fitted to what remains after competition in furnished_room() with clutter, seeds
-        // 121 to 200, and with touching furniture, 1 to 40 and 101 to 220;
-        // the intercept then raised by 0.65 on seeds 101 to 160.
+    if (const silhouette_match& s = o.silhouette; s.rays > 0) {
+        // Chosen: fitted to what remains after competition in furnished_room(), seen from one view
+        // point, with clutter, seeds 121 to 200, and with touching furniture, seeds 1 to 40 and 101
+        // to 220; the intercept was then raised by 0.65 on touching furniture, seeds 101 to 160 and
+        // 501 to 530.
+        constexpr std::array<double, 8> weights{-25.3, 1.3, 4.4, 0.34, 1.29, -5.3, 4.6, 0.56};
+        constexpr double intercept = -7.9;
         return logistic<8>({through, v.explanation(), v.observed(), votes, o.log_recognized,
                             s.beyond, s.overlap, std::log1p(static_cast<double>(s.rays))},
-                           {-25.3, 1.3, 4.4, 0.34, 1.29, -5.3, 4.6, 0.56}, -7.9);
-    // Log odds per variable, and without any. Chosen: fitted to what remains after competition
-    // in furnished_room() with clutter, seeds 1 to 60, and with touching furniture, 1 to 10 and 31
-    // to 60; the intercept then raised by 0.5 on seeds 1 to 40, since votes count at aligned poses.
+                           weights, intercept);
+    }
+    // Chosen: fitted likewise with clutter, seeds 1 to 60, and with touching furniture, 1 to 10 and
+    // 31 to 60; the intercept was then raised by 0.5 on seeds 1 to 40, since votes count at aligned
+    // poses.
+    constexpr std::array<double, 7> weights{4.1, -4.1, 2.1, 2.7, 13.4, 0.75, 0.92};
+    constexpr double intercept = -17.2;
     return logistic<7>({v.support(), through, v.explanation(), v.observed(), v.containment(), votes,
                         o.log_recognized},
-                       {4.1, -4.1, 2.1, 2.7, 13.4, 0.75, 0.92}, -17.2);
+                       weights, intercept);
 }
 
 /// Whether one pose of an object fits clearly better than another: by the samples of its surface

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a scan shows of objects at places: their alignment, verification and probability.
+/// What a scan shows of objects at places: their alignment, verification, silhouette and
+/// probability.
 #pragma once
 
 #include <algorithm>
@@ -53,8 +54,7 @@ namespace gnomon::recognition::detail {
 class scene_evidence {
   public:
     /// The probability below which a hypothesis is neither improved nor recognized, and not found.
-    /// Chosen on rooms of seeds 501 to 530, of .01 to .05.
-    static constexpr double worth = 0.01;
+    static constexpr double worth = 0.01;  // chosen on touching rooms of seeds 501 to 530
     /// Cells of a group, or near a place, with fewer of which there is no object.
     static constexpr std::size_t fewest = 20;  // chosen: of a stool at 5 m half face the sensor
 
@@ -76,12 +76,10 @@ class scene_evidence {
           mixed_(mixed) {}
 
     /// The places of objects for which parts vote.
-    [[nodiscard]] std::vector<object_place> voted_places(const auto& run) const {
-        return votes_.places(run);
-    }
+    [[nodiscard]] auto voted_places(const auto& run) const { return votes_.places(run); }
 
     /// Places at which the surfaces of objects may be.
-    /// @param is_left  (i): whether cell i may be of them
+    /// @param is_left  (i): whether cell i is searched
     [[nodiscard]] std::vector<object_place> searched_places(std::span<const surface_model> surfaces,
                                                             const auto& is_left,
                                                             const auto& run) const {
@@ -135,11 +133,16 @@ class scene_evidence {
         return by_silhouette(whole, model, seen_, points_, noise_, divergence_, ground_.normal);
     }
 
-    /// Compares a hypothesis with the scan by its silhouette, and corrects its probability.
+    /// How the silhouette of an object at a pose agrees with the scan.
+    [[nodiscard]] silhouette_match silhouette_of(const surface_model& model,
+                                                 const rigid_motion& pose) const {
+        return silhouette_fit(seen_, points_, noise_, divergence_, model, pose).match(pose);
+    }
+
+    /// Corrects the probability of a hypothesis by its silhouette.
     void compare_silhouette(found_object& h, const surface_model& model) const {
         if (h.probability < worth) return;
-        const rigid_motion& pose = h.aligned.pose;
-        h.silhouette = silhouette_fit(seen_, points_, noise_, divergence_, model, pose).match(pose);
+        h.silhouette = silhouette_of(model, h.aligned.pose);
         h.probability = probability_of(h);
     }
 

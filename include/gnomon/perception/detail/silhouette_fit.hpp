@@ -2,7 +2,7 @@
 /// @file
 /// Moves an object whose faces do not determine its pose well, such as a table of which only the
 /// top is seen, which slides on itself: to where its silhouette is that of the scan. The alignment
-/// counts by its covariance.
+/// counts by its covariance. Or only compares an object at a pose with the scan by its silhouette.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class silhouette_fit {
 
     [[nodiscard]] bool has_rays() const { return !views_.empty(); }
 
-    /// How it agrees with the object at a pose.
+    /// How they agree with the object at a pose.
     [[nodiscard]] silhouette_match match(const rigid_motion& pose) {
         silhouette_match result;
         silhouette_shares sums;
@@ -55,9 +55,9 @@ class silhouette_fit {
             view.add_shares(pose, sums);
         }
         if (sums.in_any > 0.0) result.overlap = sums.in_both / sums.in_any;
-        constexpr double few = 5.0;       // rays; chosen: a scan without its floor has hardly any
-        constexpr double unknown = 0.25;  // [1]; chosen: neither alone nor a part
-        result.beyond = (sums.beyond + few * unknown) / (sums.passing + few);
+        // Rays that stand for not knowing; chosen: without its floor a scan has hardly any others.
+        constexpr double prior = 5.0;
+        result.beyond = (sums.beyond + prior * result.beyond) / (sums.passing + prior);
         return result;
     }
 

@@ -36,12 +36,12 @@ struct imaged_points {
     std::function<Eigen::Vector3d(point_index)> at;  ///< [m]
 };
 
-/// Sums over rays, in rays.
+/// Sums over rays, of shares of beams.
 struct silhouette_shares {
-    double in_both = 0.0;  ///< of the shares that hit the object both in the scan and by the model
-    double in_any = 0.0;   ///< of the shares that do so in one of them
-    double passing = 0.0;  ///< rays that pass the model
-    double beyond = 0.0;   ///< of these, the shares that hit its surface in the scan
+    double in_both = 0.0;  ///< that hit the object both in the scan and by the model
+    double in_any = 0.0;   ///< that hit it in at least one of the two
+    double passing = 0.0;  ///< the number of rays that pass the model
+    double beyond = 0.0;   ///< of these, that hit in the scan what continues a face of the model
 };
 
 /// The rays of one image.
@@ -96,7 +96,7 @@ class silhouette_rays {
     void add_shares(const rigid_motion& pose, silhouette_shares& sums) {
         drawing_->draw(pose);
         for (const silhouette_ray& r : rays_) {
-            const double expected = drawing_->share(r.at), seen = std::clamp(r.share, 0.0, 1.0);
+            const double expected = drawing_->share(r.at), seen = r.share;
             sums.in_both += std::min(expected, seen);
             sums.in_any += std::max(expected, seen);
             if (expected > 0.0) continue;
