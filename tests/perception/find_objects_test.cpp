@@ -153,7 +153,7 @@ TEST(find_objects, finds_nothing_where_nothing_is) {
     EXPECT_EQ(found.points.size(), 0u);
 }
 
-/// What is clear is found also by those who ask for what is less probable.
+/// Probable objects are found also where less probable ones are enough.
 TEST(find_objects, finds_at_least_as_much_where_less_is_enough) {
     const small_room room;
     const auto found = finder_of_two()(room.scan, {.noise = find_noise});

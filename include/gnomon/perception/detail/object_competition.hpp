@@ -103,7 +103,7 @@ inline void recognize_all(std::vector<found_object>& hypotheses, double least,
     const auto winners = [&](std::vector<found_object> some, double least) {
         return winners_of(std::move(some), scene, surfaces, least, recognize, of_cell, run);
     };
-    // Who asks for less probable objects, too, does not want these to take cells from others.
+    // Less probable objects, where these are wanted, too, take no cells from others.
     const double clear = std::max(min_probability, find_objects_options{}.min_probability);
     auto hypotheses = hypotheses_at(scene.voted_places(run), scene, surfaces, run);
     recognize_all(hypotheses, clear, recognize, run);
