@@ -27330,7 +27330,7 @@ class matched_surface {
             return is_unit(n) && is_compatible(n, ray, own);
         };
         search_tree(samples_.tree(), x, {.k = list.of.size(), .squared_radius = radius * radius},
-                    found, distance_of_some{{}, is_wanted});
+                    found, distance_of_some<decltype(is_wanted)>{{}, is_wanted});
         list.searched = x;
         list.count = found.size();
         list.reach = radius;
