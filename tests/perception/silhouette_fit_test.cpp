@@ -83,6 +83,13 @@ struct table_scene {
         }
         scan.viewpoints = gnomon::viewpoint_table(std::move(from), std::move(line));
     }
+
+    [[nodiscard]] gnomon::visibility seen() const {
+        return gnomon::visibility(scan, {.noise = table_noise});
+    }
+    [[nodiscard]] rec::detail::imaged_points imaged() const {
+        return {groups, [this](gnomon::point_index i) { return scan.points[i]; }};
+    }
 };
 
 /// An alignment that is off by a shift along the table, which is not known, and one across it,
@@ -105,10 +112,8 @@ gnomon::alignment aligned_off(double along, const rigid_motion& truth = where_ta
 gnomon::alignment fitted_table(const gnomon::alignment& found, const table_scene& scene,
                                gnomon::angle divergence) {
     static const rec::surface_model model = sampled_surface(dining_table);
-    return rec::detail::by_silhouette(
-        found, model, gnomon::visibility(scene.scan, {.noise = table_noise}),
-        {scene.groups, [&](gnomon::point_index i) { return scene.scan.points[i]; }}, table_noise,
-        divergence, upwards);
+    return rec::detail::by_silhouette(found, model, scene.seen(), scene.imaged(), table_noise,
+                                      divergence, upwards);
 }
 
 /// Of a pose of the table [m].
@@ -177,10 +182,8 @@ TEST(silhouette_fit, without_rays_stays) {
 rec::silhouette_match match_of(const sim::furniture_model& model, const table_scene& scene,
                                const rigid_motion& pose, gnomon::angle divergence) {
     const rec::surface_model surface = sampled_surface(model);
-    return rec::detail::silhouette_fit(
-               gnomon::visibility(scene.scan, {.noise = table_noise}),
-               {scene.groups, [&](gnomon::point_index i) { return scene.scan.points[i]; }},
-               table_noise, divergence, surface, pose)
+    return rec::detail::silhouette_fit(scene.seen(), scene.imaged(), table_noise, divergence,
+                                       surface, pose)
         .match(pose);
 }
 

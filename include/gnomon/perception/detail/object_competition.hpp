@@ -96,7 +96,8 @@ inline void recognize_all(std::vector<found_object>& hypotheses, double least,
 /// The objects in a scene, at poses of careful alignments. First the hypotheses at voted places
 /// compete, and the winners take their cells. Then the surfaces of all objects are searched in the
 /// remaining cells, where fewer wrong places fit. Finally all hypotheses compete again.
-/// Parameters, result and complexity are those of winners_of().
+/// Parameters and result are those of winners_of(). Complexity: that of hypotheses_at() for the
+/// places, and twice that of winners_of().
 [[nodiscard]] inline std::vector<found_object> objects_in(
     const scene_evidence& scene, std::span<const surface_model> surfaces, double min_probability,
     const auto& recognize, std::vector<std::int32_t>& of_cell, const auto& run) {

@@ -55,8 +55,8 @@ class silhouette_fit {
             view.add_shares(pose, sums);
         }
         if (sums.in_any > 0.0) result.overlap = sums.in_both / sums.in_any;
-        // Rays that stand for not knowing; chosen: without its floor a scan has hardly any others.
-        constexpr double prior = 5.0;
+        // Without its floor, a scan has hardly any rays that pass an object.
+        constexpr double prior = 5.0;  // rays; chosen on rooms of seeds 541 to 590, of 5 and 20
         result.beyond = (sums.beyond + prior * result.beyond) / (sums.passing + prior);
         return result;
     }
