@@ -103,7 +103,8 @@ class image_of_surface {
     struct next {
         std::size_t sample = none;
         bool is_on = false;
-        double off = std::numeric_limits<double>::infinity();  // the range [m], or the tangent
+        double off =
+            std::numeric_limits<double>::infinity();  // the range [m], or the squared tangent
     };
 
     /// Columns from that of the first sample on, in [-w / 2, w / 2).
@@ -140,9 +141,11 @@ class image_of_surface {
 
     /// Compares a sample with the pixels around it.
     void show(std::size_t i, double pixel, double spacing) {
-        constexpr double spacings = 0.75;                       // chosen: half of their diagonal
-        const double reach = static_cast<double>(band_) + 0.6;  // pixels; chosen: a part of one
+        constexpr double spacings = 0.75;  // chosen: half of their diagonal
+        // Tangents; pixels: chosen, a part of one.
+        const double reach = (static_cast<double>(band_) + 0.6) * pixel;
         const facing_sample& s = samples_[i];
+        const double near = spacings * spacing / s.range;
         const Eigen::Vector2d at =
             plane_.place_of(gnomon::detail::difference(s.at, plane_.viewpoint));
         const auto x = column(i) - left_;
@@ -152,11 +155,11 @@ class image_of_surface {
              ++b) {
             for (auto a = x - band_; a <= x + band_; ++a) {
                 const auto k = static_cast<std::size_t>(b) * width_ + static_cast<std::size_t>(a);
-                const double tangent = (places_[k] - at).norm();
-                const bool is_on = tangent * s.range < spacings * spacing;
-                if (!is_on && !(tangent < reach * pixel)) continue;
+                const double squared = (places_[k] - at).squaredNorm();
+                const bool is_on = squared < near * near;
+                if (!is_on && !(squared < reach * reach)) continue;
                 next& n = nearest_[k];
-                const double off = is_on ? s.range : tangent;
+                const double off = is_on ? s.range : squared;
                 if (is_on == n.is_on ? off < n.off : is_on) n = {i, is_on, off};
             }
         }

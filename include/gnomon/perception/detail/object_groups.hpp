@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,6 +24,7 @@
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/perception/detail/object_cells.hpp>
+#include <gnomon/perception/detail/perception_run.hpp>
 #include <gnomon/perception/perception.hpp>
 #include <gnomon/perception/perception_result.hpp>
 #include <gnomon/recognition/view.hpp>
@@ -32,7 +34,7 @@
 
 namespace gnomon::recognition::detail {
 
-/// Surfaces of a group of cells.
+/// Surfaces of a group of cells, without their planes.
 template <class R, execution X>
 [[nodiscard]] perception_result<plane_fit> surfaces_in(const R& cells, const auto& options,
                                                        const X& run) {
@@ -41,7 +43,10 @@ template <class R, execution X>
     perception<knn, plane_pca, conservative, smooth_surfaces> chain{.neighborhood = {.k = k},
                                                                     .noise = options.noise};
     chain.segmentation.surfaces.min_points = k / 2;
-    return chain(index, run);
+    perception_result<plane_fit> seen;
+    constexpr bool needs_planes = false;
+    gnomon::detail::perception_run(chain, index, seen, run, std::identity())(needs_planes);
+    return seen;
 }
 
 /// The groups of cells that may be objects: all in one, or those of at most a gap from each other

@@ -57,8 +57,7 @@ class observed_space {
             end_[k] = size_[k] - begin_[k];
         }
         size_[2] = static_cast<std::size_t>(height / edge) + 3;  // one below, and one above
-        for (auto& of_kind : value_) of_kind.assign(size_[0] * size_[1] * size_[2], unknown);
-        fill(cells);
+        fill(cells, run);
         find_empty(frame, seen, run);
     }
 
@@ -86,9 +85,9 @@ class observed_space {
   private:
     static constexpr std::int8_t unknown = 0;
 
-    void fill(std::span<const ground_cell> cells) {
+    void fill(std::span<const ground_cell> cells, const auto& run) {
         constexpr double level = 0.8, upright = 0.6;  // chosen: cosines; between them both kinds
-        std::vector<unsigned char> kinds(value_[0].size(), 0);
+        std::vector<unsigned char> kinds(size_[0] * size_[1] * size_[2], 0);
         for (const ground_cell& c : cells) {
             const double height = c.at.z() / edge;
             if (!(height >= 0.0 && height < static_cast<double>(size_[2] - 2))) continue;
@@ -98,24 +97,24 @@ class observed_space {
                 static_cast<unsigned char>((c.up < level ? 1 : 0) | (c.up > upright ? 2 : 0));
         }
         // Cells are `reach` and two voxels from the sides, and one from bottom and top.
-        for (std::size_t k = 0; k < kinds.size(); ++k)
-            if (kinds[k] != 0) spread(k, kinds[k]);
+        run(value_.size(), [&](std::size_t kind) {
+            value_[kind].assign(kinds.size(), unknown);
+            for (std::size_t k = 0; k < kinds.size(); ++k)
+                if (kinds[k] != 0) spread(value_[kind], k, (kinds[k] >> kind & 1) != 0);
+        });
     }
 
-    /// Fills a voxel and those around it.
-    void spread(std::size_t k, unsigned char kinds) {
-        for (std::size_t kind = 0; kind < 2; ++kind) {
-            const bool fits = (kinds >> kind & 1) != 0;
-            for (std::size_t i = 0; i < 3; ++i) {
-                for (std::size_t j = 0; j < 3; ++j) {
-                    for (std::size_t h = 0; h < 3; ++h) {
-                        const std::int8_t more = !fits                        ? of_other_kind
-                                                 : i == 1 && j == 1 && h == 1 ? occupied
-                                                                              : adjacent;
-                        std::int8_t& v = value_[kind][k + (i * size_[1] + j) * size_[2] + h -
-                                                      ((size_[1] + 1) * size_[2] + 1)];
-                        v = v == unknown ? more : std::max(v, more);
-                    }
+    /// Fills a voxel and those around it, which are of the kind or not.
+    void spread(std::vector<std::int8_t>& value, std::size_t k, bool is_of_kind) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                for (std::size_t h = 0; h < 3; ++h) {
+                    const std::int8_t more = !is_of_kind                  ? of_other_kind
+                                             : i == 1 && j == 1 && h == 1 ? occupied
+                                                                          : adjacent;
+                    std::int8_t& v = value[k + (i * size_[1] + j) * size_[2] + h -
+                                           ((size_[1] + 1) * size_[2] + 1)];
+                    v = v == unknown ? more : std::max(v, more);
                 }
             }
         }

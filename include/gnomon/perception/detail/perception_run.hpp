@@ -57,7 +57,8 @@ class perception_run {
           run_(run, result.memory.pool_of_work()),
           projection_(projection) {}
 
-    void operator()() {
+    /// @param needs_planes  of surfaces, the last step
+    void operator()(bool needs_planes = true) {
         const pool_scope scope(&result_.memory.pool());
         chain_.require_valid();
         result_.steps.clear();
@@ -69,7 +70,7 @@ class perception_run {
             find_on_cells();
         else
             find_on_points();
-        step("planes of surfaces", [&] { estimate_planes_of_all(); });
+        if (needs_planes) step("planes of surfaces", [&] { estimate_planes_of_all(); });
     }
 
   private:
@@ -83,7 +84,6 @@ class perception_run {
         work();
         result_.steps.push_back({name, watch.seconds()});
     }
-
     [[nodiscard]] std::size_t size() const {
         return static_cast<std::size_t>(std::ranges::size(points_));
     }

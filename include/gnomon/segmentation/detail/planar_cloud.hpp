@@ -9,6 +9,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -31,12 +32,13 @@ class planar_cloud {
     /// @param is_seen  whether the view points are known; the origin stands for unknown ones
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run, bool is_seen)
-        : noise(noise_of_points(index, curve, run, is_seen)),
-          offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
-          index_(index) {
-        if (index.finite() == 0) return;
-        for (int a = 0; a < 3; ++a) origin[a] = median_of(a, index.tree());
-        for (std::size_t i = 0; i < index.size(); ++i) offsets[i] = difference(index[i], origin);
+        : noise(noise_of_points(index, curve, run, is_seen)), index_(index) {
+        if (index.finite() > 0)
+            for (int a = 0; a < 3; ++a) origin[a] = median_of(a, index.tree());
+        resize_touched(offsets, index.size(), run);
+        for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) offsets[i] = difference(index[i], origin);
+        });
     }
 
     scratch<point_noise> noise;
