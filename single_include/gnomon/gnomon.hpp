@@ -17629,30 +17629,18 @@ namespace gnomon::detail {
 /// The limits in each of some sectors of azimuth.
 struct view_limits {
     /// Those of rays, enlarged by two pixels.
-    /// @param seen    the numbers of the rays
-    /// @param way_of  (i): ray i, of any length but 0 [m]
-    /// @param pole    the axis of elevation, of any length
-    /// @param pixel   [rad]
-    void set(const auto& seen, const auto& way_of, const auto& pole, double pixel,
-             const auto& run) {
+    /// @param ways   the rays, of any length but 0 [m]
+    /// @param pole   the axis of elevation, of any length
+    /// @param pixel  [rad]
+    void set(const auto& ways, const auto& pole, double pixel) {
         axes_ = image_axes::with_pole(pole);
         all_ = {};
         for (limits& sector : sectors_) sector = {};
-        constexpr std::size_t most = 16;  // performance only
-        const std::size_t parts = std::min(most, chunk_count(seen.size()));
-        mutex guard;
-        run(parts, [&](std::size_t part) {
-            std::array<limits, sectors> found;
-            const std::size_t end = (part + 1) * seen.size() / parts;
-            for (std::size_t k = part * seen.size() / parts; k < end; ++k) {
-                const Eigen::Vector3d way = way_of(seen[k]);
-                const double sine = dot(axes_.z, way) / length(way);
-                found[sector_of(way)].add({sine, sine});
-            }
-            const guard_of locked(guard);
-            for (std::size_t i = 0; i < sectors; ++i) sectors_[i].add(found[i]);
-        });
-        for (const limits& sector : sectors_) all_.add(sector);
+        for (const Eigen::Vector3d& way : ways) {
+            const double sine = dot(axes_.z, way) / length(way);
+            sectors_[sector_of(way)].add({sine, sine});
+            all_.add({sine, sine});
+        }
         for (limits& sector : sectors_) sector.enlarge(2.0 * pixel);
         all_.enlarge(2.0 * pixel);
     }
@@ -17671,8 +17659,6 @@ struct view_limits {
     }
 
   private:
-    static constexpr std::size_t sectors = 512;  // numerical: they hardly differ in two degrees
-
     /// Sines of elevations.
     struct limits {
         double lowest = 1.0, highest = -1.0;  // of no ray
@@ -17691,12 +17677,12 @@ struct view_limits {
 
     [[nodiscard]] std::size_t sector_of(const auto& way) const {
         const double azimuth = std::atan2(dot(axes_.y, way), dot(axes_.x, way)) + std::numbers::pi;
-        const double width = 2.0 * std::numbers::pi / static_cast<double>(sectors);
-        return static_cast<std::size_t>(azimuth / width) % sectors;
+        const double width = 2.0 * std::numbers::pi / static_cast<double>(sectors_.size());
+        return static_cast<std::size_t>(azimuth / width) % sectors_.size();
     }
 
     image_axes axes_;
-    std::array<limits, sectors> sectors_;
+    std::array<limits, 512> sectors_;  // numerical: limits hardly differ within two degrees
     limits all_;
 };
 
@@ -17734,39 +17720,37 @@ class range_image {
 
     /// The image of all points at a finite distance from the view point [m], except points at the
     /// view point itself. It stores the rows in which something is seen, or, for few points in many
-    /// pixels, single pixels. O(n log n). The result does not depend on the execution.
+    /// pixels, single pixels. O(n log n).
     /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
     ///                                a view point or a pole that is not finite, or for a pole of
     ///                                no length
-    template <class R, execution X = sequential, class Proj = std::identity>
+    template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, const Eigen::Vector3d& viewpoint,
-                const range_image_options& format = {}, const X& run = {}, Proj projection = {})
+                const range_image_options& format = {}, Proj projection = {})
         : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
-        show(p, p.size(), std::identity(), format.pole, run);
+        show(p, p.size(), std::identity(), format.pole);
     }
 
     /// The image of some points of a cloud: what it shows has its index in the whole of it.
     /// @throws std::invalid_argument  as above, or for an index out of range
-    template <class R, execution X = sequential, class Proj = std::identity>
+    template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, std::span<const point_index> some,
                 const Eigen::Vector3d& viewpoint, const range_image_options& format = {},
-                const X& run = {}, Proj projection = {})
+                Proj projection = {})
         : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
         for (const point_index i : some)
             detail::require(i < p.size(), "range_image: an index is out of range");
         show(
-            p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole, run);
+            p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole);
     }
 
     [[nodiscard]] std::size_t width() const { return width_; }                     ///< in pixels
     [[nodiscard]] std::size_t height() const { return height_; }                   ///< in pixels
     [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }  ///< [m]
-    /// Where elevation is pi/2: a unit vector.
-    [[nodiscard]] const Eigen::Vector3d& pole() const { return axes_.z; }
 
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite. (A template, so that only its
@@ -17834,8 +17818,7 @@ class range_image {
 
     /// Stores the nearest of `count` points in each pixel. (A template, as what it calls, so that
     /// only code that makes images compiles it.)
-    void show(const auto& points, std::size_t count, const auto& index_of, const auto& pole,
-              const auto& run) {
+    void show(const auto& points, std::size_t count, const auto& index_of, const auto& pole) {
         detail::scratch<sight> visible;
         visible.reserve(count);
         const auto offset_of = [&](const sight& s) {
@@ -17843,19 +17826,25 @@ class range_image {
         };
         for (std::size_t k = 0; k < count; ++k) {
             const auto i = static_cast<point_index>(index_of(k));
-            if (detail::has_length(offset_of({{0.0, i}, 0}))) visible.push_back({{0.0, i}, 0});
+            const Eigen::Vector3d d = detail::difference(points[i], viewpoint_);
+            if (detail::has_length(d)) visible.push_back({{detail::length(d), i}, 0});
         }
         axes_ = detail::image_axes::with_pole(
             pole ? *pole : detail::least_observed_axis(visible, offset_of));
-        detail::for_each_chunk(run, visible.size(), [&](std::size_t begin, std::size_t end) {
-            measure(visible, begin, end, offset_of);
-        });
-        std::uint64_t lowest = height_, highest = 0;  // rows
-        for (const sight& s : visible) {
-            lowest = std::min(lowest, s.place / width_);
-            highest = std::max(highest, s.place / width_);
+        std::size_t lowest = height_, highest = 0;
+        std::array<Eigen::Vector3d, detail::pack::size> to;
+        for (std::size_t k = 0; k < visible.size(); k += to.size()) {
+            const std::size_t next = std::min(to.size(), visible.size() - k);
+            for (std::size_t l = 0; l < to.size(); ++l)
+                to[l] = offset_of(visible[k + std::min(l, next - 1)]);
+            const auto at = axes_.cells_towards(to, width_, height_);
+            for (std::size_t l = 0; l < next; ++l) {
+                visible[k + l].place = place_of(at[l]);
+                lowest = std::min(lowest, at[l].elevation);
+                highest = std::max(highest, at[l].elevation);
+            }
         }
-        if (!visible.empty()) keep(visible, lowest, highest, run);
+        if (!visible.empty()) keep(visible, lowest, highest);
         const auto sine_of_row = [this](double row) {
             const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
             return std::sin(turn * std::numbers::pi);
@@ -17865,28 +17854,13 @@ class range_image {
         highest_sine_ = sine_of_row(static_cast<double>(highest) + 1.0 + about);
     }
 
-    /// Sets the ranges and pixels of some points.
-    void measure(auto& visible, std::size_t begin, std::size_t end, const auto& offset_of) const {
-        std::array<Eigen::Vector3d, detail::pack::size> to;
-        for (std::size_t k = begin; k < end; k += to.size()) {
-            const std::size_t next = std::min(to.size(), end - k);
-            for (std::size_t l = 0; l < to.size(); ++l)
-                to[l] = offset_of(visible[k + std::min(l, next - 1)]);
-            const auto at = axes_.cells_towards(to, width_, height_);
-            for (std::size_t l = 0; l < next; ++l) {
-                visible[k + l].what.range = detail::length(to[l]);
-                visible[k + l].place = place_of(at[l]);
-            }
-        }
-    }
-
     /// Stores the nearest point of each pixel, between two rows.
-    void keep(auto& visible, std::uint64_t lowest, std::uint64_t highest, const auto& run) {
+    void keep(auto& visible, std::size_t lowest, std::size_t highest) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
-        const std::uint64_t pixels = (highest - lowest + 1) * width_;
+        const std::uint64_t pixels = std::uint64_t{highest - lowest + 1} * width_;
         if (pixels / few <= visible.size()) {
-            first_ = lowest * width_;
-            detail::resize_touched(seen_, static_cast<std::size_t>(pixels), run);
+            first_ = std::uint64_t{lowest} * width_;
+            seen_.resize(static_cast<std::size_t>(pixels));
             for (const sight& s : visible) {
                 view& v = seen_[static_cast<std::size_t>(s.place - first_)];
                 if (v.range < 0.0 || s.what.range < v.range) v = s.what;
@@ -17894,8 +17868,10 @@ class range_image {
             return;
         }
         std::sort(visible.begin(), visible.end(), [](const sight& a, const sight& b) {
-            return std::tie(a.place, a.what.range, a.what.index) <
-                   std::tie(b.place, b.what.range, b.what.index);
+            const auto key = [](const sight& s) {
+                return std::tuple(s.place, s.what.range, s.what.index);
+            };
+            return key(a) < key(b);
         });
         for (const sight& s : visible) {
             if (!places_.empty() && places_.back() == s.place) continue;
@@ -17938,9 +17914,8 @@ namespace gnomon::detail {
 
 /// The direction in which a point is seen.
 struct cloud_ray {
-    Eigen::Vector3d direction;  ///< of unit length, or zero for none
+    Eigen::Vector3d direction;
     point_index point;
-    std::uint64_t number;  ///< by which it is drawn
 };
 
 /// As good as random, of a direction by a microradian: the same wherever the cloud lies.
@@ -17951,24 +17926,6 @@ struct cloud_ray {
     for (int a = 0; a < 3; ++a)
         all = all << bits | static_cast<std::int64_t>((direction[a] + 1.0) * steps + 0.5);
     return random_stream(static_cast<std::uint64_t>(all)).bits();
-}
-
-/// The rays to all points, missing ones among them.
-template <execution X>
-[[nodiscard]] scratch<cloud_ray> rays_of(const auto& points, const viewpoint_table& viewpoints,
-                                         const X& run) {
-    scratch<cloud_ray> rays;
-    resize_touched(rays, points.size(), run);
-    for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Eigen::Vector3d way = difference(points[i], viewpoints[i]);
-            const bool has_one = has_length(way);  // nor have those one that are not finite
-            const Eigen::Vector3d direction =
-                scaled(has_one ? 1.0 / length(way) : 0.0, has_one ? way : Eigen::Vector3d(0, 0, 0));
-            rays[i] = {direction, static_cast<point_index>(i), drawn_number(direction)};
-        }
-    });
-    return rays;
 }
 
 /// Some of the rays, of different directions, drawn by their numbers: the same in whatever order
@@ -17982,8 +17939,8 @@ template <execution X>
     scratch<std::uint64_t> numbers;  // ascending
     scratch<cloud_ray> drawn;
     for (const cloud_ray& r : rays) {
-        const std::uint64_t number = r.number;
-        if ((drawn.size() == count && number > numbers.back()) || is_missing(r.direction)) continue;
+        const std::uint64_t number = drawn_number(r.direction);
+        if (drawn.size() == count && number > numbers.back()) continue;
         const auto at = std::lower_bound(numbers.begin(), numbers.end(), number);
         const auto place = drawn.begin() + (at - numbers.begin());
         if (at != numbers.end() && *at == number) {
@@ -17998,57 +17955,49 @@ template <execution X>
     return drawn;
 }
 
-/// A ray and the squares of the angles, as chords, to the N nearest ones, ascending [rad^2].
-template <std::size_t N>
-struct ray_with_nearest {
-    cloud_ray ray;
-    double parallax;  ///< of the view points of rays that count [rad]
-    std::array<double, N> nearest;
-
-    void compare(const cloud_ray& r, const auto& points, const viewpoint_table& viewpoints) {
-        const double up = ray.direction[2] - r.direction[2];
-        if (up * up >= nearest.back()) return;  // performance only
-        const double squared = squared_distance(ray.direction, r.direction);
-        // From where the point of a seed is seen in nearly the same direction, rays count:
-        // stations apart do not see more finely by being many, the lines of a moving sensor do.
-        const Eigen::Vector3d v = viewpoints[ray.point];
-        if (squared >= nearest.back() ||
-            squared_distance(v, viewpoints[r.point]) >
-                parallax * parallax * squared_distance(v, points[ray.point]))
-            return;
-        const auto last = nearest.end() - 1;
-        *last = squared;
-        std::rotate(std::upper_bound(nearest.begin(), last, squared), last, nearest.end());
-    }
-};
-
 /// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
 /// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn by a hash of their
 /// directions, so that the result does not depend on the order of the points; O(n).
 /// @param points  a position_view
-template <execution X>
-[[nodiscard]] angle ray_spacing(const auto& points, const viewpoint_table& viewpoints,
-                                const X& run) {
+[[nodiscard]] angle ray_spacing(const auto& points, const viewpoint_table& viewpoints) {
     constexpr std::size_t neighbors = 16;  // chosen: the spacing is known to an eighth
     constexpr std::size_t seeds = 32;      // performance only
     // [rad]; numerical: limits of the result, which bound the pixels of an image and the rays to
     // compare
     constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    const scratch<cloud_ray> rays = rays_of(points, viewpoints, run);
-    using seed = ray_with_nearest<neighbors + 1>;  // itself and its nearest rays
+    scratch<cloud_ray> rays;
+    rays.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector3d way = difference(points[i], viewpoints[i]);
+        if (has_length(way))  // nor do those have one that are not finite
+            rays.push_back({scaled(1.0 / length(way), way), static_cast<point_index>(i)});
+    }
+    if (rays.empty()) return radians(most);
+    // The squares of the angles, as chords, from each seed to itself and its nearest rays [rad^2];
+    // 16 rays within the largest are `most` apart.
+    struct seed {
+        cloud_ray ray;
+        std::array<double, neighbors + 1> nearest;
+    };
     scratch<seed> drawn;
-    // 16 rays within the largest angle are `most` apart.
     for (const cloud_ray& r : drawn_rays(rays, seeds, points, viewpoints))
-        drawn.emplace_back(seed{r, most, {}})
-            .nearest.fill(most * most * neighbors / std::numbers::pi);
-    if (drawn.empty()) return radians(most);
-    constexpr std::size_t together = 8;  // seeds that pass over the rays at once; performance only
-    run((drawn.size() + together - 1) / together, [&](std::size_t part) {
-        const auto begin = drawn.begin() + static_cast<std::ptrdiff_t>(part * together);
-        const auto end = begin + std::min<std::ptrdiff_t>(together, drawn.end() - begin);
-        for (const cloud_ray& r : rays)
-            for (auto s = begin; s != end; ++s) s->compare(r, points, viewpoints);
-    });
+        drawn.emplace_back(seed{r, {}}).nearest.fill(most * most * neighbors / std::numbers::pi);
+    for (const cloud_ray& r : rays) {
+        for (auto& [s, nearest] : drawn) {
+            const double up = s.direction[2] - r.direction[2];
+            if (up * up >= nearest.back()) continue;  // performance only
+            const double squared = squared_distance(s.direction, r.direction);
+            // From where the point of a seed is seen in nearly the same direction, rays count:
+            // stations apart do not see more finely by being many, the lines of a moving sensor do.
+            const Eigen::Vector3d v = viewpoints[s.point];
+            if (squared >= nearest.back() || squared_distance(v, viewpoints[r.point]) >
+                                                 most * most * squared_distance(v, points[s.point]))
+                continue;
+            const auto last = nearest.end() - 1;
+            *last = squared;
+            std::rotate(std::upper_bound(nearest.begin(), last, squared), last, nearest.end());
+        }
+    }
     const auto at = drawn.begin() + static_cast<std::ptrdiff_t>(drawn.size() / 2);
     std::nth_element(drawn.begin(), at, drawn.end(), [](const seed& a, const seed& b) {
         return a.nearest.back() < b.nearest.back();
@@ -18116,7 +18065,7 @@ class visibility {
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
             const double wanted = options.pixel.radians() > 0.0
                                       ? options.pixel.radians()
-                                      : detail::ray_spacing(p, viewpoints, run).radians();
+                                      : detail::ray_spacing(p, viewpoints).radians();
             const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
             pixel_ = std::numbers::pi / height;
             const auto rows = static_cast<std::size_t>(height);
@@ -18124,17 +18073,13 @@ class visibility {
             const auto places =
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
-            const auto show = [&](std::size_t i, const auto& inner) {
-                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, inner,
+            run(places.size(), [&](std::size_t i) {
+                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format,
                                   projection);
-            };
-            if (places.size() == 1)
-                show(0, run);
-            else
-                run(places.size(), [&](std::size_t i) { show(i, sequential{}); });
+            });
             images_.reserve(images.size());
             for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
-            find_limits(p, viewpoints, options.pole, run);
+            find_limits(p, viewpoints, options.pole);
         });
     }
 
@@ -18186,24 +18131,17 @@ class visibility {
     }
 
   private:
-    /// Finds the limits of the view about the given pole, that of the only image, or the axis along
-    /// which all rays vary least. Several images have poles of their own, since the common axis may
-    /// lie within the field of view of one of them.
-    void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole,
-                     const auto& run) {
-        const auto way = [&](std::size_t i) { return detail::difference(p[i], viewpoints[i]); };
-        detail::scratch<std::size_t> seen;
-        seen.reserve(p.size());
+    /// Finds the limits of the view about the given pole or the axis along which all rays vary
+    /// least. The images have poles of their own, since the common axis may lie within the field of
+    /// view of one of them.
+    void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
+        detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)
-            if (detail::has_length(way(i))) seen.push_back(i);
-        Eigen::Vector3d axis;
-        if (pole)
-            axis = *pole;
-        else if (images_.size() == 1)
-            axis = images_[0].pole();
-        else
-            axis = detail::least_observed_axis(seen, way);
-        limits_.set(seen, way, axis, pixel_, run);
+            if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
+                detail::has_length(way))
+                ways.push_back(way);
+        limits_.set(ways, pole ? *pole : detail::least_observed_axis(ways, std::identity()),
+                    pixel_);
     }
 
     /// The root mean square of the standard deviations of the ranges [m].

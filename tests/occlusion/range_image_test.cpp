@@ -13,7 +13,6 @@
 #include "laws/clouds.hpp"
 #include "occlusion/looks.hpp"
 #include <gnomon/core/angle.hpp>
-#include <gnomon/core/execution.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 
 namespace {
@@ -316,33 +315,6 @@ TEST(range_image, of_a_subset_stores_indices_into_the_cloud) {
     }
     some.push_back(static_cast<point_index>(points.size()));
     EXPECT_THROW(range_image(points, some, origin), std::invalid_argument);
-}
-
-/// The image does not depend on the execution, whether it stores rows or single pixels.
-TEST(range_image, is_the_same_on_threads) {
-    const clouds::cloud points = all_around(5000, 6);
-    for (const range_image_options& format :
-         {range_image_options{.width = 144, .height = 72}, {.width = 7200, .height = 3600}}) {
-        const range_image one(points, origin, format);
-        const range_image other(points, origin, format, gnomon::threads{3});
-        EXPECT_EQ(one.pole(), other.pole());
-        for (const Eigen::Vector3d& p : points) {
-            const auto at = one.pixel_of(p);
-            ASSERT_EQ(at, other.pixel_of(p));
-            ASSERT_EQ(one.range(at), other.range(at));
-            ASSERT_EQ(one.index(at), other.index(at));
-        }
-    }
-}
-
-/// Elevation is pi/2 at the pole, as given or as chosen.
-TEST(range_image, knows_its_pole) {
-    const clouds::cloud points = all_around(50, 7);
-    const range_image given(points, origin, {.pole = Eigen::Vector3d(0, 3, 0)});
-    EXPECT_EQ(given.pole(), Eigen::Vector3d(0, 1, 0));
-    const range_image chosen(points, origin);
-    EXPECT_NEAR(chosen.pole().norm(), 1.0, 1e-12);
-    EXPECT_EQ(chosen.pixel_of(chosen.pole()).elevation, chosen.height() - 1);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ Eigen::Vector3d ray_at(double azimuth, double elevation) {
 
 gnomon::angle ray_spacing(const auto& points) {
     return gnomon::detail::ray_spacing(gnomon::position_view(points),
-                                       gnomon::detail::viewpoints_of(points), gnomon::sequential());
+                                       gnomon::detail::viewpoints_of(points));
 }
 
 TEST(ray_spacing, is_that_of_the_rays) {

@@ -8,7 +8,6 @@
 
 #include "laws/clouds.hpp"
 #include "occlusion/looks.hpp"
-#include <gnomon/core/execution.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 
 namespace sim = gnomon::simulation;
@@ -314,21 +313,6 @@ TEST(visibility, are_of_nothing_where_nothing_was_seen) {
     const clouds::cloud points(5, Eigen::Vector3d(1.0, 1.0, 1.0));
     const visibility visible(gnomon::with_viewpoint(points, points[0]));
     EXPECT_EQ(visible.towards({2.0, 3.0, 1.0}), observation::unobserved);
-}
-
-/// Observations do not depend on the execution: spacing of rays, image and limits of the view.
-TEST(visibility, are_the_same_on_threads) {
-    sim::scene world;
-    looks::add_wall(world, -2.0, 2.0);
-    const gnomon::scan scan = looks::look_at(world).scan;
-    ASSERT_GT(scan.size(), 3000u);  // several chunks
-    const visibility one(scan), other(scan, {}, gnomon::threads{3});
-    EXPECT_EQ(one.pixel(), other.pixel());
-    EXPECT_EQ(one.images()[0].pole(), other.images()[0].pole());
-    for (double x = -4.0; x <= 4.0; x += 0.5)
-        for (double y = -4.0; y <= 4.0; y += 0.5)
-            for (double z = -2.0; z <= 2.0; z += 0.5)
-                ASSERT_EQ(one.towards({x, y, z}), other.towards({x, y, z}));
 }
 
 TEST(visibility, survive_any_cloud) {

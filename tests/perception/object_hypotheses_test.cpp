@@ -17,7 +17,6 @@
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/occlusion/visibility.hpp>
-#include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
@@ -41,13 +40,11 @@ const rigid_motion where_chair_is = rigid_motion::on_ground(2.0, 0.3, degrees(16
 constexpr gnomon::angle narrow = degrees(0.0);
 const gnomon::angle wide = gnomon::radians(0.010);
 
-/// A chair on a floor, which votes know nothing of, seen by beams of some width.
+/// A chair alone on a floor, which votes know nothing of, seen by beams of some width.
 class chair_in_scene {
   public:
-    /// @param assumed   width of the beams in the scene
-    /// @param neighbor  the place of a second chair, if there is one
-    explicit chair_in_scene(gnomon::angle divergence = narrow, gnomon::angle assumed = narrow,
-                            const std::optional<rigid_motion>& neighbor = std::nullopt) {
+    /// @param assumed  width of the beams in the scene
+    explicit chair_in_scene(gnomon::angle divergence = narrow, gnomon::angle assumed = narrow) {
         sim::beam beam{.sigma = 0.005, .seed = 5};
         if (divergence > narrow)
             beam.footprint = {
@@ -60,7 +57,6 @@ class chair_in_scene {
         world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
                          sim::at(2.0, 0.0, 0.0));
         (void)sim::add(world, chair, where_chair_is);
-        if (neighbor) (void)sim::add(world, chair, *neighbor);
         const gnomon::scan scan =
             sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
                           sim::scanner{}, beam)
@@ -112,26 +108,12 @@ TEST(object_hypotheses, are_one_at_each_pose) {
     EXPECT_GT(found[0].evidence.samples, 500u);  // verified carefully
 }
 
-/// A neighbor that touches an object does not pull it away from where it is, as it does if surfaces
-/// correspond that are farther apart.
-TEST(object_hypotheses, stay_where_they_are_next_to_a_neighbor) {
-    const chair_in_scene chair(narrow, narrow,
-                               where_chair_is * rigid_motion::on_ground(0.0, 0.45, degrees(90.0)));
-    const auto off = [&](const rec::detail::alignment_effort& much) {
-        return distance_off(chair.scene().aligned(0, where_chair_is, chair.surfaces()[0], much));
-    };
-    EXPECT_LT(off(rec::detail::careful_effort), 0.01);
-    auto farther = rec::detail::careful_effort;
-    farther.farthest = rec::detail::rough_effort.farthest;
-    EXPECT_GT(off(farther), 0.03);
-}
-
 /// A better pose is looked for with fewer counts, but the answer is that of all of them.
 TEST(object_hypotheses, are_better_as_by_complete_counts) {
     const chair_in_scene chair;
     const auto& scene = chair.scene();
     const auto& model = chair.surfaces()[0];
-    const auto rough = rec::detail::rough_effort;
+    const auto rough = rec::detail::scene_evidence::rough;
     std::size_t better = 0, others = 0;
     for (const double from : {0.0, 0.05, 0.3, 9.0}) {
         const auto than = scene.aligned(
@@ -203,8 +185,8 @@ TEST(object_hypotheses, are_probable_by_their_silhouettes) {
     worse.evidence.seen_through = 50;
     EXPECT_LT(rec::detail::probability_of(worse), 0.5);
     const chair_in_scene chair(wide, wide);
-    auto found =
-        chair.scene().aligned(0, where_chair_is, chair.surfaces()[0], rec::detail::careful_effort);
+    auto found = chair.scene().aligned(0, where_chair_is, chair.surfaces()[0],
+                                       rec::detail::scene_evidence::careful);
     chair.scene().compare_silhouette(found, chair.surfaces()[0]);
     EXPECT_GT(found.silhouette.rays, 100u);
     EXPECT_GT(found.silhouette.overlap, 0.7);
@@ -232,8 +214,8 @@ TEST(object_hypotheses, settle_by_whole_beams) {
     const auto settled_for = [&](gnomon::angle assumed) {
         const chair_in_scene chair(wide, assumed);
         const auto start = where_chair_is * rigid_motion::on_ground(0.01, 0.0, degrees(1.0));
-        std::vector<rec::found_object> found{
-            chair.scene().aligned(0, start, chair.surfaces()[0], rec::detail::careful_effort)};
+        std::vector<rec::found_object> found{chair.scene().aligned(
+            0, start, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
         rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
         return found[0].aligned;
     };
@@ -256,7 +238,7 @@ TEST(object_hypotheses, stay_without_whole_beams) {
     const auto settled_for = [&](gnomon::angle assumed) {
         const chair_in_scene chair(narrow, assumed);
         std::vector<rec::found_object> found{chair.scene().aligned(
-            0, where_chair_is, chair.surfaces()[0], rec::detail::careful_effort)};
+            0, where_chair_is, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
         rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
         return found;
     };

@@ -23,10 +23,8 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
-#include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/occlusion/detail/image_axes.hpp>
@@ -54,39 +52,37 @@ class range_image {
 
     /// The image of all points at a finite distance from the view point [m], except points at the
     /// view point itself. It stores the rows in which something is seen, or, for few points in many
-    /// pixels, single pixels. O(n log n). The result does not depend on the execution.
+    /// pixels, single pixels. O(n log n).
     /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
     ///                                a view point or a pole that is not finite, or for a pole of
     ///                                no length
-    template <class R, execution X = sequential, class Proj = std::identity>
+    template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, const Eigen::Vector3d& viewpoint,
-                const range_image_options& format = {}, const X& run = {}, Proj projection = {})
+                const range_image_options& format = {}, Proj projection = {})
         : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
-        show(p, p.size(), std::identity(), format.pole, run);
+        show(p, p.size(), std::identity(), format.pole);
     }
 
     /// The image of some points of a cloud: what it shows has its index in the whole of it.
     /// @throws std::invalid_argument  as above, or for an index out of range
-    template <class R, execution X = sequential, class Proj = std::identity>
+    template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, std::span<const point_index> some,
                 const Eigen::Vector3d& viewpoint, const range_image_options& format = {},
-                const X& run = {}, Proj projection = {})
+                Proj projection = {})
         : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
         for (const point_index i : some)
             detail::require(i < p.size(), "range_image: an index is out of range");
         show(
-            p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole, run);
+            p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole);
     }
 
     [[nodiscard]] std::size_t width() const { return width_; }                     ///< in pixels
     [[nodiscard]] std::size_t height() const { return height_; }                   ///< in pixels
     [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }  ///< [m]
-    /// Where elevation is pi/2: a unit vector.
-    [[nodiscard]] const Eigen::Vector3d& pole() const { return axes_.z; }
 
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite. (A template, so that only its
@@ -154,8 +150,7 @@ class range_image {
 
     /// Stores the nearest of `count` points in each pixel. (A template, as what it calls, so that
     /// only code that makes images compiles it.)
-    void show(const auto& points, std::size_t count, const auto& index_of, const auto& pole,
-              const auto& run) {
+    void show(const auto& points, std::size_t count, const auto& index_of, const auto& pole) {
         detail::scratch<sight> visible;
         visible.reserve(count);
         const auto offset_of = [&](const sight& s) {
@@ -163,19 +158,25 @@ class range_image {
         };
         for (std::size_t k = 0; k < count; ++k) {
             const auto i = static_cast<point_index>(index_of(k));
-            if (detail::has_length(offset_of({{0.0, i}, 0}))) visible.push_back({{0.0, i}, 0});
+            const Eigen::Vector3d d = detail::difference(points[i], viewpoint_);
+            if (detail::has_length(d)) visible.push_back({{detail::length(d), i}, 0});
         }
         axes_ = detail::image_axes::with_pole(
             pole ? *pole : detail::least_observed_axis(visible, offset_of));
-        detail::for_each_chunk(run, visible.size(), [&](std::size_t begin, std::size_t end) {
-            measure(visible, begin, end, offset_of);
-        });
-        std::uint64_t lowest = height_, highest = 0;  // rows
-        for (const sight& s : visible) {
-            lowest = std::min(lowest, s.place / width_);
-            highest = std::max(highest, s.place / width_);
+        std::size_t lowest = height_, highest = 0;
+        std::array<Eigen::Vector3d, detail::pack::size> to;
+        for (std::size_t k = 0; k < visible.size(); k += to.size()) {
+            const std::size_t next = std::min(to.size(), visible.size() - k);
+            for (std::size_t l = 0; l < to.size(); ++l)
+                to[l] = offset_of(visible[k + std::min(l, next - 1)]);
+            const auto at = axes_.cells_towards(to, width_, height_);
+            for (std::size_t l = 0; l < next; ++l) {
+                visible[k + l].place = place_of(at[l]);
+                lowest = std::min(lowest, at[l].elevation);
+                highest = std::max(highest, at[l].elevation);
+            }
         }
-        if (!visible.empty()) keep(visible, lowest, highest, run);
+        if (!visible.empty()) keep(visible, lowest, highest);
         const auto sine_of_row = [this](double row) {
             const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
             return std::sin(turn * std::numbers::pi);
@@ -185,28 +186,13 @@ class range_image {
         highest_sine_ = sine_of_row(static_cast<double>(highest) + 1.0 + about);
     }
 
-    /// Sets the ranges and pixels of some points.
-    void measure(auto& visible, std::size_t begin, std::size_t end, const auto& offset_of) const {
-        std::array<Eigen::Vector3d, detail::pack::size> to;
-        for (std::size_t k = begin; k < end; k += to.size()) {
-            const std::size_t next = std::min(to.size(), end - k);
-            for (std::size_t l = 0; l < to.size(); ++l)
-                to[l] = offset_of(visible[k + std::min(l, next - 1)]);
-            const auto at = axes_.cells_towards(to, width_, height_);
-            for (std::size_t l = 0; l < next; ++l) {
-                visible[k + l].what.range = detail::length(to[l]);
-                visible[k + l].place = place_of(at[l]);
-            }
-        }
-    }
-
     /// Stores the nearest point of each pixel, between two rows.
-    void keep(auto& visible, std::uint64_t lowest, std::uint64_t highest, const auto& run) {
+    void keep(auto& visible, std::size_t lowest, std::size_t highest) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
-        const std::uint64_t pixels = (highest - lowest + 1) * width_;
+        const std::uint64_t pixels = std::uint64_t{highest - lowest + 1} * width_;
         if (pixels / few <= visible.size()) {
-            first_ = lowest * width_;
-            detail::resize_touched(seen_, static_cast<std::size_t>(pixels), run);
+            first_ = std::uint64_t{lowest} * width_;
+            seen_.resize(static_cast<std::size_t>(pixels));
             for (const sight& s : visible) {
                 view& v = seen_[static_cast<std::size_t>(s.place - first_)];
                 if (v.range < 0.0 || s.what.range < v.range) v = s.what;
@@ -214,8 +200,10 @@ class range_image {
             return;
         }
         std::sort(visible.begin(), visible.end(), [](const sight& a, const sight& b) {
-            return std::tie(a.place, a.what.range, a.what.index) <
-                   std::tie(b.place, b.what.range, b.what.index);
+            const auto key = [](const sight& s) {
+                return std::tuple(s.place, s.what.range, s.what.index);
+            };
+            return key(a) < key(b);
         });
         for (const sight& s : visible) {
             if (!places_.empty() && places_.back() == s.place) continue;

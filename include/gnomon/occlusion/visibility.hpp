@@ -82,7 +82,7 @@ class visibility {
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
             const double wanted = options.pixel.radians() > 0.0
                                       ? options.pixel.radians()
-                                      : detail::ray_spacing(p, viewpoints, run).radians();
+                                      : detail::ray_spacing(p, viewpoints).radians();
             const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
             pixel_ = std::numbers::pi / height;
             const auto rows = static_cast<std::size_t>(height);
@@ -90,17 +90,13 @@ class visibility {
             const auto places =
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
-            const auto show = [&](std::size_t i, const auto& inner) {
-                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, inner,
+            run(places.size(), [&](std::size_t i) {
+                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format,
                                   projection);
-            };
-            if (places.size() == 1)
-                show(0, run);
-            else
-                run(places.size(), [&](std::size_t i) { show(i, sequential{}); });
+            });
             images_.reserve(images.size());
             for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
-            find_limits(p, viewpoints, options.pole, run);
+            find_limits(p, viewpoints, options.pole);
         });
     }
 
@@ -152,24 +148,17 @@ class visibility {
     }
 
   private:
-    /// Finds the limits of the view about the given pole, that of the only image, or the axis along
-    /// which all rays vary least. Several images have poles of their own, since the common axis may
-    /// lie within the field of view of one of them.
-    void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole,
-                     const auto& run) {
-        const auto way = [&](std::size_t i) { return detail::difference(p[i], viewpoints[i]); };
-        detail::scratch<std::size_t> seen;
-        seen.reserve(p.size());
+    /// Finds the limits of the view about the given pole or the axis along which all rays vary
+    /// least. The images have poles of their own, since the common axis may lie within the field of
+    /// view of one of them.
+    void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
+        detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)
-            if (detail::has_length(way(i))) seen.push_back(i);
-        Eigen::Vector3d axis;
-        if (pole)
-            axis = *pole;
-        else if (images_.size() == 1)
-            axis = images_[0].pole();
-        else
-            axis = detail::least_observed_axis(seen, way);
-        limits_.set(seen, way, axis, pixel_, run);
+            if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
+                detail::has_length(way))
+                ways.push_back(way);
+        limits_.set(ways, pole ? *pole : detail::least_observed_axis(ways, std::identity()),
+                    pixel_);
     }
 
     /// The root mean square of the standard deviations of the ranges [m].

@@ -13,9 +13,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/execution.hpp>
 #include <gnomon/occlusion/detail/image_axes.hpp>
 
 namespace gnomon::detail {
@@ -23,30 +21,18 @@ namespace gnomon::detail {
 /// The limits in each of some sectors of azimuth.
 struct view_limits {
     /// Those of rays, enlarged by two pixels.
-    /// @param seen    the numbers of the rays
-    /// @param way_of  (i): ray i, of any length but 0 [m]
-    /// @param pole    the axis of elevation, of any length
-    /// @param pixel   [rad]
-    void set(const auto& seen, const auto& way_of, const auto& pole, double pixel,
-             const auto& run) {
+    /// @param ways   the rays, of any length but 0 [m]
+    /// @param pole   the axis of elevation, of any length
+    /// @param pixel  [rad]
+    void set(const auto& ways, const auto& pole, double pixel) {
         axes_ = image_axes::with_pole(pole);
         all_ = {};
         for (limits& sector : sectors_) sector = {};
-        constexpr std::size_t most = 16;  // performance only
-        const std::size_t parts = std::min(most, chunk_count(seen.size()));
-        mutex guard;
-        run(parts, [&](std::size_t part) {
-            std::array<limits, sectors> found;
-            const std::size_t end = (part + 1) * seen.size() / parts;
-            for (std::size_t k = part * seen.size() / parts; k < end; ++k) {
-                const Eigen::Vector3d way = way_of(seen[k]);
-                const double sine = dot(axes_.z, way) / length(way);
-                found[sector_of(way)].add({sine, sine});
-            }
-            const guard_of locked(guard);
-            for (std::size_t i = 0; i < sectors; ++i) sectors_[i].add(found[i]);
-        });
-        for (const limits& sector : sectors_) all_.add(sector);
+        for (const Eigen::Vector3d& way : ways) {
+            const double sine = dot(axes_.z, way) / length(way);
+            sectors_[sector_of(way)].add({sine, sine});
+            all_.add({sine, sine});
+        }
         for (limits& sector : sectors_) sector.enlarge(2.0 * pixel);
         all_.enlarge(2.0 * pixel);
     }
@@ -65,8 +51,6 @@ struct view_limits {
     }
 
   private:
-    static constexpr std::size_t sectors = 512;  // numerical: they hardly differ in two degrees
-
     /// Sines of elevations.
     struct limits {
         double lowest = 1.0, highest = -1.0;  // of no ray
@@ -85,12 +69,12 @@ struct view_limits {
 
     [[nodiscard]] std::size_t sector_of(const auto& way) const {
         const double azimuth = std::atan2(dot(axes_.y, way), dot(axes_.x, way)) + std::numbers::pi;
-        const double width = 2.0 * std::numbers::pi / static_cast<double>(sectors);
-        return static_cast<std::size_t>(azimuth / width) % sectors;
+        const double width = 2.0 * std::numbers::pi / static_cast<double>(sectors_.size());
+        return static_cast<std::size_t>(azimuth / width) % sectors_.size();
     }
 
     image_axes axes_;
-    std::array<limits, sectors> sectors_;
+    std::array<limits, 512> sectors_;  // numerical: limits hardly differ within two degrees
     limits all_;
 };
 

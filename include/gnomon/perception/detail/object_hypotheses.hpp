@@ -16,7 +16,6 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/rigid_motion.hpp>
-#include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
 #include <gnomon/perception/found_object.hpp>
@@ -68,7 +67,7 @@ namespace gnomon::recognition::detail {
                                                    const found_object& rough,
                                                    const surface_model& model) {
     return improved(rough, [&](const found_object& best, const rigid_motion& start) {
-        return scene.aligned_better(best, start, model, repeated_effort);
+        return scene.aligned_better(best, start, model, scene_evidence::rough);
     });
 }
 
@@ -80,10 +79,10 @@ namespace gnomon::recognition::detail {
     return improved(careful, [&](const found_object& best, const rigid_motion& start) {
         constexpr double apart = 0.01;  // [m]; chosen on rooms of seeds 1 to 60, of .01 and .03
         constexpr angle turn = degrees(2.0);  // chosen: as wide at 30 cm from the middle
-        const found_object rough = scene.aligned(best.object, start, model, repeated_effort);
+        const found_object rough = scene.aligned(best.object, start, model, scene_evidence::rough);
         return is_same(best, rough, model, apart, turn)
                    ? std::nullopt
-                   : scene.aligned_better(best, start, model, careful_effort);
+                   : scene.aligned_better(best, start, model, scene_evidence::careful);
     });
 }
 
@@ -91,7 +90,8 @@ namespace gnomon::recognition::detail {
 [[nodiscard]] inline found_object aligned_carefully(const scene_evidence& scene,
                                                     const found_object& rough,
                                                     const surface_model& model) {
-    found_object careful = scene.aligned(rough.object, rough.aligned.pose, model, careful_effort);
+    found_object careful =
+        scene.aligned(rough.object, rough.aligned.pose, model, scene_evidence::careful);
     scene.compare_silhouette(careful, model);
     return careful;
 }
@@ -100,7 +100,7 @@ namespace gnomon::recognition::detail {
 [[nodiscard]] inline found_object aligned_roughly(const scene_evidence& scene,
                                                   const object_place& place,
                                                   std::span<const surface_model> models) {
-    return scene.aligned(place.object, place.pose, models[place.object], rough_effort);
+    return scene.aligned(place.object, place.pose, models[place.object], scene_evidence::rough);
 }
 
 /// The hypotheses that are worth it, the most probable one first, and of those that are one object

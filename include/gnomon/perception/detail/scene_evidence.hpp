@@ -31,7 +31,6 @@
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/visibility.hpp>
-#include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/cells_of_object.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
@@ -97,10 +96,19 @@ class scene_evidence {
         return search_poses(cells, frame, seen_, surfaces, run);
     }
 
+    /// How much of a scan and of a model is compared; chosen for speed: results depend on it
+    /// little.
+    struct effort {
+        std::size_t cells;    ///< that are aligned
+        bool all_samples;     ///< of the model, or the coarse ones, with which these are aligned
+        int iterations;       ///< of an alignment
+        std::size_t samples;  ///< that are verified
+    };
+    static constexpr effort rough{100, false, 15, 150}, careful{600, true, 50, 1000};
+
     /// An object, aligned from a pose and verified.
     [[nodiscard]] found_object aligned(std::size_t object, const rigid_motion& start,
-                                       const surface_model& model,
-                                       const alignment_effort& much) const {
+                                       const surface_model& model, const effort& much) const {
         return *aligned_unless(object, start, model, much,
                                [](const verification&, std::size_t) { return false; });
     }
@@ -109,7 +117,7 @@ class scene_evidence {
     [[nodiscard]] std::optional<found_object> aligned_better(const found_object& than,
                                                              const rigid_motion& start,
                                                              const surface_model& model,
-                                                             const alignment_effort& much) const {
+                                                             const effort& much) const {
         return aligned_unless(than.object, start, model, much,
                               [&](const verification& v, std::size_t left) {
                                   return !fits_better(v, than.evidence, left);
@@ -119,10 +127,9 @@ class scene_evidence {
     /// The alignment of an object that was found, by the cells that whole beams hit, and by its
     /// silhouette.
     [[nodiscard]] alignment refined(const alignment& found, const surface_model& model) const {
-        const alignment whole =
-            aligned_by_whole_beams(found, model,
-                                   {cells_, index_, surface_, mixed_, noise_, ground_.normal,
-                                    divergence_, careful_effort.cells});
+        const alignment whole = aligned_by_whole_beams(
+            found, model,
+            {cells_, index_, surface_, mixed_, noise_, ground_.normal, divergence_, careful.cells});
         return by_silhouette(whole, model, seen_, points_, noise_, divergence_, ground_.normal);
     }
 
@@ -192,9 +199,10 @@ class scene_evidence {
     [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
                                                              const rigid_motion& start,
                                                              const surface_model& model,
-                                                             const alignment_effort& much,
+                                                             const effort& much,
                                                              const auto& is_refused) const {
-        constexpr double margin = 0.10;  // [m]: error of votes; chosen: `reach` of these
+        constexpr double margin = 0.10;    // [m]: error of votes; chosen: `reach` of these
+        constexpr double farthest = 0.15;  // [m]: between points at first; chosen: more than that
         found_object h;
         h.object = object;
         h.aligned.pose = start;
@@ -212,7 +220,7 @@ class scene_evidence {
         h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
                                        {.noise = noise_,
                                         .on_ground = true,
-                                        .max_distance = much.farthest,
+                                        .max_distance = farthest,
                                         .max_iterations = much.iterations});
         const verification_options how{.noise = noise_, .most = much.samples};
         pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
