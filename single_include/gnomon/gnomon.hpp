@@ -30813,7 +30813,7 @@ class perception_run {
           run_(run, result.memory.pool_of_work()),
           projection_(projection) {}
 
-    /// @param needs_planes  of surfaces, the last step
+    /// @param needs_planes  whether the last step is taken, the planes of the surfaces
     void operator()(bool needs_planes = true) {
         const pool_scope scope(&result_.memory.pool());
         chain_.require_valid();

@@ -103,8 +103,8 @@ class image_of_surface {
     struct next {
         std::size_t sample = none;
         bool is_on = false;
-        double off =
-            std::numeric_limits<double>::infinity();  // the range [m], or the squared tangent
+        /// The range [m], or the squared tangent of the angle.
+        double off = std::numeric_limits<double>::infinity();
     };
 
     /// Columns from that of the first sample on, in [-w / 2, w / 2).
@@ -141,11 +141,12 @@ class image_of_surface {
 
     /// Compares a sample with the pixels around it.
     void show(std::size_t i, double pixel, double spacing) {
-        constexpr double spacings = 0.75;  // chosen: half of their diagonal
-        // Tangents; pixels: chosen, a part of one.
-        const double reach = (static_cast<double>(band_) + 0.6) * pixel;
+        constexpr double spacings = 0.75;    // chosen: half of their diagonal
+        constexpr double beyond_band = 0.6;  // pixels; chosen: a part of one
         const facing_sample& s = samples_[i];
+        // Tangents of angles: from the sample to its rays, and to those next to it.
         const double near = spacings * spacing / s.range;
+        const double reach = (static_cast<double>(band_) + beyond_band) * pixel;
         const Eigen::Vector2d at =
             plane_.place_of(gnomon::detail::difference(s.at, plane_.viewpoint));
         const auto x = column(i) - left_;
