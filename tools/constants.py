@@ -38,7 +38,7 @@ FOLDERS = ["gnomon/segmentation", "gnomon/occlusion", "gnomon/perception",
 # The views of objects have surfaces of their own, with more that is chosen: on simulated furniture. So have
 # hypotheses about objects.
 OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/object_cells.hpp",
-         "gnomon/perception/detail/cells_of_object.hpp",
+         "gnomon/perception/detail/cells_of_object.hpp", "gnomon/perception/detail/alignment_effort.hpp",
          "gnomon/perception/find_objects.hpp", "gnomon/perception/detail/object_hypotheses.hpp",
          "gnomon/perception/detail/object_competition.hpp", "gnomon/perception/detail/object_probability.hpp",
          "gnomon/perception/detail/observed_space.hpp", "gnomon/perception/detail/pose_search.hpp",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
@@ -40,11 +42,13 @@ const rigid_motion where_chair_is = rigid_motion::on_ground(2.0, 0.3, degrees(16
 constexpr gnomon::angle narrow = degrees(0.0);
 const gnomon::angle wide = gnomon::radians(0.010);
 
-/// A chair alone on a floor, which votes know nothing of, seen by beams of some width.
+/// A chair on a floor, which votes know nothing of, seen by beams of some width.
 class chair_in_scene {
   public:
-    /// @param assumed  width of the beams in the scene
-    explicit chair_in_scene(gnomon::angle divergence = narrow, gnomon::angle assumed = narrow) {
+    /// @param assumed   width of the beams in the scene
+    /// @param neighbor  the place of a second chair, if there is one
+    explicit chair_in_scene(gnomon::angle divergence = narrow, gnomon::angle assumed = narrow,
+                            const std::optional<rigid_motion>& neighbor = std::nullopt) {
         sim::beam beam{.sigma = 0.005, .seed = 5};
         if (divergence > narrow)
             beam.footprint = {
@@ -57,6 +61,7 @@ class chair_in_scene {
         world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
                          sim::at(2.0, 0.0, 0.0));
         (void)sim::add(world, chair, where_chair_is);
+        if (neighbor) (void)sim::add(world, chair, *neighbor);
         const gnomon::scan scan =
             sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
                           sim::scanner{}, beam)
@@ -108,32 +113,88 @@ TEST(object_hypotheses, are_one_at_each_pose) {
     EXPECT_GT(found[0].evidence.samples, 500u);  // verified carefully
 }
 
+/// A neighbor that touches an object does not pull it away from where it is, as it does if surfaces
+/// correspond that are farther apart.
+TEST(object_hypotheses, stay_where_they_are_next_to_a_neighbor) {
+    const chair_in_scene chair(narrow, narrow,
+                               where_chair_is * rigid_motion::on_ground(0.0, 0.45, degrees(90.0)));
+    const auto off = [&](const rec::detail::alignment_effort& much) {
+        return distance_off(chair.scene().aligned(0, where_chair_is, chair.surfaces()[0], much));
+    };
+    EXPECT_LT(off(rec::detail::careful_effort), 0.01);
+    auto farther = rec::detail::careful_effort;
+    farther.farthest = rec::detail::rough_effort.farthest;
+    EXPECT_GT(off(farther), 0.03);
+    // Of a rough alignment of each kind, the more probable one is that which was not pulled.
+    EXPECT_GT(off(rec::detail::rough_effort), 0.03);
+    EXPECT_LT(distance_off(rec::detail::aligned_roughly(chair.scene(), {0, where_chair_is, 0.0},
+                                                        chair.surfaces())),
+              0.03);
+}
+
+/// Whatever the last samples are, a hypothesis is not more probable than if all were supported.
+TEST(object_hypotheses, are_at_most_as_probable_as_with_samples_that_are_supported) {
+    rec::found_object o;
+    o.votes = 0.3;
+    o.evidence = {.samples = 30,
+                  .facing = 20,
+                  .supported = 12,
+                  .seen_through = 3,
+                  .mismatched = 2,
+                  .hidden = 3,
+                  .points = 40,
+                  .explained = 30,
+                  .near_surface = 35,
+                  .on_surface = 31};
+    constexpr std::size_t left = 10;
+    const double most = rec::detail::probability_at_most(o, left);
+    EXPECT_EQ(rec::detail::probability_at_most(o, 0), rec::detail::probability_of(o));
+    for (const auto count : {&rec::verification::supported, &rec::verification::seen_through,
+                             &rec::verification::mismatched, &rec::verification::hidden,
+                             &rec::verification::unobserved, &rec::verification::samples}) {
+        rec::found_object all = o;
+        all.evidence.*count += left;
+        if (count != &rec::verification::samples) all.evidence.facing += left;
+        EXPECT_LE(rec::detail::probability_of(all), most);
+    }
+}
+
 /// A better pose is looked for with fewer counts, but the answer is that of all of them.
 TEST(object_hypotheses, are_better_as_by_complete_counts) {
     const chair_in_scene chair;
     const auto& scene = chair.scene();
     const auto& model = chair.surfaces()[0];
-    const auto rough = rec::detail::scene_evidence::rough;
-    std::size_t better = 0, others = 0;
+    std::array<std::size_t, 2> better{}, others{};
+    const auto compare = [&](std::size_t kind, const std::optional<rec::found_object>& found,
+                             const rec::found_object& complete, bool is_better) {
+        ASSERT_EQ(found.has_value(), is_better);
+        ++(is_better ? better : others)[kind];
+        if (!is_better) return;
+        EXPECT_EQ(found->aligned.pose.position, complete.aligned.pose.position);
+        EXPECT_EQ(found->probability, complete.probability);
+        EXPECT_EQ(found->evidence.supported, complete.evidence.supported);
+        EXPECT_EQ(found->evidence.explained, complete.evidence.explained);
+    };
+    using namespace rec::detail;
     for (const double from : {0.0, 0.05, 0.3, 9.0}) {
-        const auto than = scene.aligned(
-            0, where_chair_is * rigid_motion::on_ground(from, 0.0, degrees(0.0)), model, rough);
+        const auto than =
+            scene.aligned(0, where_chair_is * rigid_motion::on_ground(from, 0.0, degrees(0.0)),
+                          model, rough_effort);
         for (const double x : {-0.2, -0.08, 0.0, 0.08, 7.0}) {
             const auto start = where_chair_is * rigid_motion::on_ground(x, 0.02, degrees(50.0 * x));
-            const auto complete = scene.aligned(0, start, model, rough);
-            const auto found = scene.aligned_better(than, start, model, rough);
-            const bool is_better = rec::detail::fits_better(complete.evidence, than.evidence);
-            ASSERT_EQ(found.has_value(), is_better);
-            ++(is_better ? better : others);
-            if (!is_better) continue;
-            EXPECT_EQ(found->aligned.pose.position, complete.aligned.pose.position);
-            EXPECT_EQ(found->probability, complete.probability);
-            EXPECT_EQ(found->evidence.supported, complete.evidence.supported);
-            EXPECT_EQ(found->evidence.explained, complete.evidence.explained);
+            const auto complete = scene.aligned(0, start, model, careful_effort);
+            compare(0, better_fitting(scene, than, start, model), complete,
+                    fits_better(complete.evidence, than.evidence));
+            const auto rough = scene.aligned(0, start, model, rough_effort);
+            const double least = std::max(scene_evidence::worth, 1.1 * than.probability);
+            compare(1, more_probable(scene, than, start, model, rough_effort), rough,
+                    rough.probability > least);
         }
     }
-    EXPECT_GT(better, 0u);
-    EXPECT_GT(others, 0u);
+    for (const std::size_t kind : {0u, 1u}) {
+        EXPECT_GT(better[kind], 0u);
+        EXPECT_GT(others[kind], 0u);
+    }
 }
 
 /// Far from all points there is none.
@@ -185,8 +246,8 @@ TEST(object_hypotheses, are_probable_by_their_silhouettes) {
     worse.evidence.seen_through = 50;
     EXPECT_LT(rec::detail::probability_of(worse), 0.5);
     const chair_in_scene chair(wide, wide);
-    auto found = chair.scene().aligned(0, where_chair_is, chair.surfaces()[0],
-                                       rec::detail::scene_evidence::careful);
+    auto found =
+        chair.scene().aligned(0, where_chair_is, chair.surfaces()[0], rec::detail::careful_effort);
     chair.scene().compare_silhouette(found, chair.surfaces()[0]);
     EXPECT_GT(found.silhouette.rays, 100u);
     EXPECT_GT(found.silhouette.overlap, 0.7);
@@ -214,8 +275,8 @@ TEST(object_hypotheses, settle_by_whole_beams) {
     const auto settled_for = [&](gnomon::angle assumed) {
         const chair_in_scene chair(wide, assumed);
         const auto start = where_chair_is * rigid_motion::on_ground(0.01, 0.0, degrees(1.0));
-        std::vector<rec::found_object> found{chair.scene().aligned(
-            0, start, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
+        std::vector<rec::found_object> found{
+            chair.scene().aligned(0, start, chair.surfaces()[0], rec::detail::careful_effort)};
         rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
         return found[0].aligned;
     };
@@ -238,7 +299,7 @@ TEST(object_hypotheses, stay_without_whole_beams) {
     const auto settled_for = [&](gnomon::angle assumed) {
         const chair_in_scene chair(narrow, assumed);
         std::vector<rec::found_object> found{chair.scene().aligned(
-            0, where_chair_is, chair.surfaces()[0], rec::detail::scene_evidence::careful)};
+            0, where_chair_is, chair.surfaces()[0], rec::detail::careful_effort)};
         rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
         return found;
     };

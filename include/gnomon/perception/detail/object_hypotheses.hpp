@@ -16,6 +16,7 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
 #include <gnomon/perception/found_object.hpp>
@@ -36,9 +37,9 @@ namespace gnomon::recognition::detail {
 }
 
 /// A hypothesis, or the same object aligned from a start next to it, and again from one next to
-/// that, where it fits clearly better: an alignment may end where a slat of the model is on the
-/// next slat of the chair.
-/// @param better_from  (best, start): the same object, aligned from a start, if it fits better
+/// that, where it is clearly better: an alignment may end where a slat of the model is on the next
+/// slat of the chair.
+/// @param better_from  (best, start): the same object, aligned from a start, if it is better
 [[nodiscard]] inline found_object improved(found_object best, const auto& better_from) {
     constexpr int most = 3;                // rounds; chosen: few change in the third
     constexpr double step = 0.08;          // [m]; chosen, and tried on rooms of seeds 1 to 14
@@ -62,12 +63,38 @@ namespace gnomon::recognition::detail {
     return best;
 }
 
+/// The same object, aligned from another pose, if it is worth it and clearly more probable there.
+[[nodiscard]] inline std::optional<found_object> more_probable(const scene_evidence& scene,
+                                                               const found_object& than,
+                                                               const rigid_motion& start,
+                                                               const surface_model& model,
+                                                               const alignment_effort& much) {
+    constexpr double clearly = 1.1;  // chosen on touching rooms of seeds 101 to 160, of 1 and 1.1
+    const double least = std::max(scene_evidence::worth, clearly * than.probability);
+    if (least >= 1.0) return std::nullopt;
+    return scene.aligned_unless(than.object, start, model, much,
+                                [&](const found_object& h, std::size_t left) {
+                                    return !(probability_at_most(h, left) > least);
+                                });
+}
+
+/// The same object, aligned carefully from another pose, if it fits better there.
+[[nodiscard]] inline std::optional<found_object> better_fitting(const scene_evidence& scene,
+                                                                const found_object& than,
+                                                                const rigid_motion& start,
+                                                                const surface_model& model) {
+    return scene.aligned_unless(than.object, start, model, careful_effort,
+                                [&](const found_object& h, std::size_t left) {
+                                    return !fits_better(h.evidence, than.evidence, left);
+                                });
+}
+
 /// A hypothesis that was aligned roughly, improved.
 [[nodiscard]] inline found_object improved_roughly(const scene_evidence& scene,
                                                    const found_object& rough,
                                                    const surface_model& model) {
     return improved(rough, [&](const found_object& best, const rigid_motion& start) {
-        return scene.aligned_better(best, start, model, scene_evidence::rough);
+        return more_probable(scene, best, start, model, repeated_effort);
     });
 }
 
@@ -79,10 +106,9 @@ namespace gnomon::recognition::detail {
     return improved(careful, [&](const found_object& best, const rigid_motion& start) {
         constexpr double apart = 0.01;  // [m]; chosen on rooms of seeds 1 to 60, of .01 and .03
         constexpr angle turn = degrees(2.0);  // chosen: as wide at 30 cm from the middle
-        const found_object rough = scene.aligned(best.object, start, model, scene_evidence::rough);
-        return is_same(best, rough, model, apart, turn)
-                   ? std::nullopt
-                   : scene.aligned_better(best, start, model, scene_evidence::careful);
+        const found_object rough = scene.aligned(best.object, start, model, repeated_effort);
+        return is_same(best, rough, model, apart, turn) ? std::nullopt
+                                                        : better_fitting(scene, best, start, model);
     });
 }
 
@@ -90,17 +116,20 @@ namespace gnomon::recognition::detail {
 [[nodiscard]] inline found_object aligned_carefully(const scene_evidence& scene,
                                                     const found_object& rough,
                                                     const surface_model& model) {
-    found_object careful =
-        scene.aligned(rough.object, rough.aligned.pose, model, scene_evidence::careful);
+    found_object careful = scene.aligned(rough.object, rough.aligned.pose, model, careful_effort);
     scene.compare_silhouette(careful, model);
     return careful;
 }
 
-/// An object that may stand at a place: aligned roughly from there.
+/// An object that may stand at a place: aligned roughly from there, with surfaces of the scan that
+/// are farther or nearer, whichever makes it more probable: neighbors pull it away by the former.
 [[nodiscard]] inline found_object aligned_roughly(const scene_evidence& scene,
                                                   const object_place& place,
                                                   std::span<const surface_model> models) {
-    return scene.aligned(place.object, place.pose, models[place.object], scene_evidence::rough);
+    const surface_model& model = models[place.object];
+    found_object far = scene.aligned(place.object, place.pose, model, rough_effort);
+    auto near = more_probable(scene, far, place.pose, model, near_effort);
+    return near ? *std::move(near) : far;
 }
 
 /// The hypotheses that are worth it, the most probable one first, and of those that are one object

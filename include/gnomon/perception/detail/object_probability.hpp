@@ -53,6 +53,14 @@ template <std::size_t n>
                        weights, intercept);
 }
 
+/// An upper bound of the probability of a hypothesis of which not all samples are counted yet: as
+/// if the last `left` of them were supported.
+[[nodiscard]] inline double probability_at_most(found_object o, std::size_t left) {
+    o.evidence.facing += left;
+    o.evidence.supported += left;
+    return probability_of(o);
+}
+
 /// Whether one pose of an object fits clearly better than another: by the samples of its surface
 /// that are there, less those that are not. Those that the sensor saw through count most: at the
 /// true pose there are hardly any, and 3 cm from it up to one of 20.

@@ -31,6 +31,7 @@
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/cells_of_object.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
@@ -96,40 +97,62 @@ class scene_evidence {
         return search_poses(cells, frame, seen_, surfaces, run);
     }
 
-    /// How much of a scan and of a model is compared; chosen for speed: results depend on it
-    /// little.
-    struct effort {
-        std::size_t cells;    ///< that are aligned
-        bool all_samples;     ///< of the model, or the coarse ones, with which these are aligned
-        int iterations;       ///< of an alignment
-        std::size_t samples;  ///< that are verified
-    };
-    static constexpr effort rough{100, false, 15, 150}, careful{600, true, 50, 1000};
-
     /// An object, aligned from a pose and verified.
     [[nodiscard]] found_object aligned(std::size_t object, const rigid_motion& start,
-                                       const surface_model& model, const effort& much) const {
+                                       const surface_model& model,
+                                       const alignment_effort& much) const {
         return *aligned_unless(object, start, model, much,
-                               [](const verification&, std::size_t) { return false; });
+                               [](const found_object&, std::size_t) { return false; });
     }
 
-    /// The same object, aligned from another pose, if it fits better there.
-    [[nodiscard]] std::optional<found_object> aligned_better(const found_object& than,
+    /// An object, aligned from a pose and verified, or none as soon as it is refused.
+    /// @param is_refused  (hypothesis, left): by the counts of all but the last `left` samples
+    [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
                                                              const rigid_motion& start,
                                                              const surface_model& model,
-                                                             const effort& much) const {
-        return aligned_unless(than.object, start, model, much,
-                              [&](const verification& v, std::size_t left) {
-                                  return !fits_better(v, than.evidence, left);
-                              });
+                                                             const alignment_effort& much,
+                                                             const auto& is_refused) const {
+        constexpr double margin = 0.10;  // [m]: error of votes; chosen: `reach` of these
+        found_object h;
+        h.object = object;
+        h.aligned.pose = start;
+        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
+        std::vector<point_index> inside;
+        for_each_point_in(index_, start, model.low() - around, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
+        const bool is_enough = inside.size() >= fewest;
+        if (!is_enough && is_refused(h, 0)) return std::nullopt;
+        if (!is_enough) {
+            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
+            return h;
+        }
+        const auto& samples = much.all_samples ? model.all() : model.coarse();
+        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
+                                       {.noise = noise_,
+                                        .on_ground = true,
+                                        .max_distance = much.farthest,
+                                        .max_iterations = much.iterations});
+        const verification_options how{.noise = noise_, .most = much.samples};
+        pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
+        verifier.count_points(all_points);
+        h.votes = votes_.at(object, h.aligned.pose);
+        const auto normal_of = [&](point_index i) { return surface_[i].normal; };
+        const auto stops = [&](const verification& counts, std::size_t left) {
+            h.evidence = counts;
+            return is_refused(h, left);
+        };
+        if (!verifier.count_samples(normal_of, stops)) return std::nullopt;
+        h.probability = probability_of(h);
+        return h;
     }
 
     /// The alignment of an object that was found, by the cells that whole beams hit, and by its
     /// silhouette.
     [[nodiscard]] alignment refined(const alignment& found, const surface_model& model) const {
-        const alignment whole = aligned_by_whole_beams(
-            found, model,
-            {cells_, index_, surface_, mixed_, noise_, ground_.normal, divergence_, careful.cells});
+        const alignment whole =
+            aligned_by_whole_beams(found, model,
+                                   {cells_, index_, surface_, mixed_, noise_, ground_.normal,
+                                    divergence_, careful_effort.cells});
         return by_silhouette(whole, model, seen_, points_, noise_, divergence_, ground_.normal);
     }
 
@@ -194,45 +217,6 @@ class scene_evidence {
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
 
   private:
-    /// An object, aligned from a pose and verified, or none as soon as it is refused.
-    /// @param is_refused  (counts, left): by the counts of all but the last `left` samples
-    [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
-                                                             const rigid_motion& start,
-                                                             const surface_model& model,
-                                                             const effort& much,
-                                                             const auto& is_refused) const {
-        constexpr double margin = 0.10;    // [m]: error of votes; chosen: `reach` of these
-        constexpr double farthest = 0.15;  // [m]: between points at first; chosen: more than that
-        found_object h;
-        h.object = object;
-        h.aligned.pose = start;
-        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
-        std::vector<point_index> inside;
-        for_each_point_in(index_, start, model.low() - around, model.high() + around,
-                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
-        const bool is_enough = inside.size() >= fewest;
-        if (!is_enough && is_refused(h.evidence, 0)) return std::nullopt;
-        if (!is_enough) {
-            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
-            return h;
-        }
-        const auto& samples = much.all_samples ? model.all() : model.coarse();
-        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
-                                       {.noise = noise_,
-                                        .on_ground = true,
-                                        .max_distance = farthest,
-                                        .max_iterations = much.iterations});
-        const verification_options how{.noise = noise_, .most = much.samples};
-        pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
-        const auto normal_of = [&](point_index i) { return surface_[i].normal; };
-        if (!verifier.count_samples(normal_of, is_refused)) return std::nullopt;
-        verifier.count_points(all_points);
-        h.evidence = verifier.counts();
-        h.votes = votes_.at(object, h.aligned.pose);
-        h.probability = probability_of(h);
-        return h;
-    }
-
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
 
     const voxel_grid::means& cells_;
