@@ -19,12 +19,15 @@
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/alignment_effort.hpp>
+#include <gnomon/perception/detail/object_competition.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/segmentation/segments.hpp>
 #include <gnomon/simulation.hpp>
 #include <gnomon/simulation/sample_surface.hpp>
 
@@ -195,6 +198,25 @@ TEST(object_hypotheses, are_better_as_by_complete_counts) {
         EXPECT_GT(better[kind], 0u);
         EXPECT_GT(others[kind], 0u);
     }
+}
+
+/// Objects that came to one pose are one, which has the cells of all of them.
+TEST(object_hypotheses, are_united_at_one_pose) {
+    const chair_in_scene scene;
+    const std::vector<rec::surface_model> surfaces(2, scene.surfaces()[0]);
+    const auto at = [](std::size_t object, double x) {
+        rec::found_object o;
+        o.object = object;
+        o.aligned.pose = rigid_motion::on_ground(x, 0.0, degrees(0.0));
+        return o;
+    };
+    std::vector<rec::found_object> objects{at(0, 0.0), at(1, 0.0), at(0, 0.02), at(0, 0.05)};
+    std::vector<std::int32_t> of_cell{3, 2, gnomon::unlabeled, 1, 0};
+    rec::detail::unite(objects, of_cell, surfaces);
+    ASSERT_EQ(objects.size(), 3u);
+    EXPECT_EQ(objects[1].object, 1u);
+    EXPECT_EQ(objects[2].aligned.pose.position.x(), 0.05);
+    EXPECT_EQ(of_cell, (std::vector<std::int32_t>{2, 0, gnomon::unlabeled, 1, 0}));
 }
 
 /// Far from all points there is none.

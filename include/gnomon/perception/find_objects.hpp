@@ -106,8 +106,7 @@ class object_finder {
 
     /// Fits the recognizer of parts, to be called after all views are learned.
     /// @param run  the result does not depend on it
-    /// @throws std::invalid_argument  if views of fewer than two names were learned, background
-    ///                                among them
+    /// @throws std::invalid_argument  if fewer than two names, with background, were learned
     /// Complexity: that of object_recognizer::fit().
     template <execution X = sequential>
     void fit(const X& run = {}) {
@@ -144,6 +143,7 @@ class object_finder {
                 at.scene, surfaces_, options.min_probability,
                 [&](found_object& h) { recognize(at.scene, h); }, of_cell, team);
             detail::settle(result.objects, at.scene, surfaces_, team);
+            detail::unite(result.objects, of_cell, surfaces_);
             std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
             for (std::size_t i = 0; i < at.points.size(); ++i)
                 labels[at.points[i]] = of_cell[at.cells.of_point[i]];
@@ -157,8 +157,8 @@ class object_finder {
     /// @param points   as above
     /// @param places   m objects, each at most 10 cm and 15 degrees from where it is
     /// @param options  as above; the least probability is not used
-    /// @return m hypotheses in the order of the places; those with too few points, and all if no
-    ///         ground was found, are of probability 0. Poses of less than 0.01 are not refined
+    /// @return m hypotheses, as the places; those with too few points, and all if no ground was
+    ///         found, are of probability 0. Poses of less than 0.01 are not refined
     /// @throws std::invalid_argument  as above, or if there is no such object or a pose is no rigid
     ///                                motion
     /// Complexity: O(n log n), and for each place some alignments as above.

@@ -33,6 +33,13 @@ inline void recognize_all(std::vector<found_object>& hypotheses, double least,
     });
 }
 
+/// Changes the numbers of the objects whose surface the cells are on.
+/// @param place  the new number of each object
+inline void renumber(std::vector<std::int32_t>& of_cell, std::span<const std::int32_t> place) {
+    for (std::int32_t& label : of_cell)
+        if (label != unlabeled) label = place[static_cast<std::size_t>(label)];
+}
+
 /// The most probable hypotheses, of which each explains cells of its own.
 ///
 /// Round by round: what is found in one takes its cells, which no longer count against the others
@@ -88,8 +95,7 @@ inline void recognize_all(std::vector<found_object>& hypotheses, double least,
         place[i] = static_cast<std::int32_t>(sorted.size());
         sorted.push_back(std::move(found[i]));
     }
-    for (std::int32_t& label : of_cell)
-        if (label != unlabeled) label = place[static_cast<std::size_t>(label)];
+    renumber(of_cell, place);
     return sorted;
 }
 
@@ -114,6 +120,22 @@ inline void recognize_all(std::vector<found_object>& hypotheses, double least,
         hypotheses_at(scene.searched_places(surfaces, is_left, run), scene, surfaces, run);
     std::ranges::move(others, std::back_inserter(hypotheses));
     return winners(std::move(hypotheses), min_probability);
+}
+
+/// Makes one object of those that settled at one pose, of which each had won cells elsewhere: the
+/// first one stays, with the cells of all.
+inline void unite(std::vector<found_object>& objects, std::vector<std::int32_t>& of_cell,
+                  std::span<const surface_model> surfaces) {
+    std::vector<found_object> kept;
+    std::vector<std::int32_t> place;
+    for (found_object& o : objects) {
+        const auto same = std::ranges::find_if(
+            kept, [&](const found_object& k) { return is_one(o, k, surfaces[o.object]); });
+        place.push_back(static_cast<std::int32_t>(same - kept.begin()));
+        if (same == kept.end()) kept.push_back(std::move(o));
+    }
+    objects = std::move(kept);
+    renumber(of_cell, place);
 }
 
 }  // namespace gnomon::recognition::detail

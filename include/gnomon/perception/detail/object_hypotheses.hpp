@@ -36,6 +36,14 @@ namespace gnomon::recognition::detail {
            model.symmetry().difference(heading, degrees(0.0)) < turn;
 }
 
+/// Whether they are so near each other that they are one.
+[[nodiscard]] inline bool is_one(const found_object& a, const found_object& b,
+                                 const surface_model& model) {
+    constexpr double apart = 0.03;        // chosen: three cells [m]
+    constexpr angle turn = degrees(5.0);  // chosen: as wide at 35 cm from the middle
+    return is_same(a, b, model, apart, turn);
+}
+
 /// A hypothesis, or the same object aligned from a start next to it, and again from one next to
 /// that, where it is clearly better: an alignment may end where a slat of the model is on the next
 /// slat of the chair.
@@ -136,15 +144,12 @@ namespace gnomon::recognition::detail {
 /// at one pose only that.
 [[nodiscard]] inline std::vector<found_object> distinct(std::vector<found_object> hypotheses,
                                                         std::span<const surface_model> models) {
-    constexpr double apart = 0.03;        // chosen: three cells [m]
-    constexpr angle turn = degrees(5.0);  // chosen: as wide at 35 cm from the middle
     std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
     std::vector<found_object> kept;
     for (found_object& h : hypotheses) {
         if (h.probability < scene_evidence::worth) break;
-        if (std::ranges::none_of(kept, [&](const found_object& k) {
-                return is_same(h, k, models[h.object], apart, turn);
-            }))
+        if (std::ranges::none_of(
+                kept, [&](const found_object& k) { return is_one(h, k, models[h.object]); }))
             kept.push_back(std::move(h));
     }
     return kept;
