@@ -129,8 +129,9 @@ namespace gnomon::recognition::detail {
     return careful;
 }
 
-/// An object that may stand at a place: aligned roughly from there, with surfaces of the scan that
-/// are farther or nearer, whichever makes it more probable: neighbors pull it away by the former.
+/// An object that may stand at a place: aligned roughly from there, by surfaces that are up to 15
+/// cm away, or by nearer ones only if that makes it more probable: neighbors do not pull it away
+/// then.
 [[nodiscard]] inline found_object aligned_roughly(const scene_evidence& scene,
                                                   const object_place& place,
                                                   std::span<const surface_model> models) {
