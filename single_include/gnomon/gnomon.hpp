@@ -3288,15 +3288,15 @@ class leaf_tree {
         if (is_near(root())) waiting[depth++] = root();
         while (depth > 0) {
             subtree t = waiting[--depth];
-            bool near = true;
-            while (near && !t.is_leaf()) {
+            bool nearby = true;
+            while (nearby && !t.is_leaf()) {
                 const auto [left, right] = t.children();
                 waiting[depth] = right;
                 depth += static_cast<std::size_t>(is_near(right));
-                near = is_near(left);
+                nearby = is_near(left);
                 t = left;
             }
-            if (near) visit(t.first, boxes_[t.node]);
+            if (nearby) visit(t.first, boxes_[t.node]);
         }
     }
 
@@ -21021,9 +21021,9 @@ class ray_sphere {
     [[nodiscard]] bool is_surrounded(std::size_t i, double reach) const {
         const Eigen::Vector3d u = orthogonal(rays_[i]), v = cross(rays_[i], u);
         scratch<double> azimuths;
-        scratch<neighbor> near;
-        within_into(near, i, reach);
-        for (const neighbor& q : near) {
+        scratch<neighbor> nearby;
+        within_into(nearby, i, reach);
+        for (const neighbor& q : nearby) {
             // Other echoes of the same ray have no direction from it.
             if (q.squared_distance < same_ray * same_ray) continue;
             if (std::abs(ranges_[q.index] - ranges_[i]) > max_jump_) continue;
@@ -21202,12 +21202,12 @@ namespace detail {
 
 /// The root mean square of ranges about the plane that fits them best [m], of rays that are next to
 /// ray i. On a plane, the inverse range is linear in the direction of the ray.
-/// @param near  neighbors in `rays`, ray i among them
+/// @param nearby  neighbors in `rays`, ray i among them
 [[nodiscard]] inline double rms_about_plane(const ray_sphere& rays, std::size_t i,
-                                            const auto& near) {
+                                            const auto& nearby) {
     const Eigen::Vector3d ray = rays.ray_of(i), u = orthogonal(ray), v = cross(ray, u);
     Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();  // of products of 1, u, v and inverse range
-    for (const neighbor& q : near) {
+    for (const neighbor& q : nearby) {
         const Eigen::Vector3d way = rays.ray_of(q.index);
         const Eigen::Vector4d row(1.0, dot(way, u), dot(way, v), 1.0 / rays.range_of(q.index));
         sums += row * row.transpose();
@@ -21246,16 +21246,16 @@ class mixed_point_test {
         const double sigma = options_.noise.along(scaled(own, rays_.ray_of(i)));
         const double step = std::max(options_.min_step, deviations * sigma);
         const double reach = 0.5 * options_.divergence.radians() + reach_.around(rays_, i);
-        scratch<neighbor> near;
-        rays_.within_into(near, i, reach);
+        scratch<neighbor> nearby;
+        rays_.within_into(nearby, i, reach);
         double nearest = own, farthest = own;
-        for (const neighbor& q : near) {
+        for (const neighbor& q : nearby) {
             nearest = std::min(nearest, rays_.range_of(q.index));
             farthest = std::max(farthest, rays_.range_of(q.index));
         }
         if (!(nearest < own - step && farthest > own + step)) return false;
-        std::sort(near.begin(), near.end());  // sums depend on the order
-        return rms_about_plane(rays_, i, near) > uneven * step;
+        std::sort(nearby.begin(), nearby.end());  // sums depend on the order
+        return rms_about_plane(rays_, i, nearby) > uneven * step;
     }
 
   private:
@@ -27157,7 +27157,7 @@ struct movable_cloud {
         with_table_of(range, [&](const viewpoint_table& viewpoints) {
             points.reserve(p.size());
             const Eigen::Vector3d first = first_of(p, is_near);
-            scratch<point_index> near;
+            scratch<point_index> nearby;
             for (std::size_t i = 0; i < p.size(); ++i) {
                 const Eigen::Vector3d x = p[i];
                 if (!is_finite(x)) continue;
@@ -27168,14 +27168,14 @@ struct movable_cloud {
                 if (!viewpoints.empty() && is_finite(v) && has_length(way))
                     m.ray = direction_of(way);
                 if (all_finite(n) && has_length(n)) m.normal = direction_of(n);
-                if (is_near(x)) near.push_back(static_cast<point_index>(points.size()));
+                if (is_near(x)) nearby.push_back(static_cast<point_index>(points.size()));
                 points.push_back(m);
             }
             if (points.empty()) return;
-            const bool all = near.empty();
-            const std::size_t counted = all ? points.size() : near.size();
+            const bool all = nearby.empty();
+            const std::size_t counted = all ? points.size() : nearby.size();
             const auto at = [&](std::size_t k) -> const Eigen::Vector3d& {
-                return points[all ? k : near[k]].at;
+                return points[all ? k : nearby[k]].at;
             };
             Eigen::Vector3d sum(0.0, 0.0, 0.0);
             for (std::size_t k = 0; k < counted; ++k) {

@@ -126,7 +126,7 @@ TEST(object_hypotheses, stay_where_they_are_next_to_a_neighbor) {
     };
     EXPECT_LT(off(rec::detail::careful_effort), 0.01);
     auto farther = rec::detail::careful_effort;
-    farther.farthest = rec::detail::rough_effort.farthest;
+    farther.max_distance = rec::detail::rough_effort.max_distance;
     EXPECT_GT(off(farther), 0.03);
     // Of a rough alignment of each kind, the more probable one is that which was not pulled.
     EXPECT_GT(off(rec::detail::rough_effort), 0.03);
@@ -180,14 +180,15 @@ TEST(object_hypotheses, are_better_as_by_complete_counts) {
     };
     using namespace rec::detail;
     for (const double from : {0.0, 0.05, 0.3, 9.0}) {
-        const auto than =
-            scene.aligned(0, where_chair_is * rigid_motion::on_ground(from, 0.0, degrees(0.0)),
-                          model, rough_effort);
+        const auto first = where_chair_is * rigid_motion::on_ground(from, 0.0, degrees(0.0));
+        const auto careful = scene.aligned(0, first, model, careful_effort);
+        const auto than = scene.aligned(0, first, model, rough_effort);
         for (const double x : {-0.2, -0.08, 0.0, 0.08, 7.0}) {
             const auto start = where_chair_is * rigid_motion::on_ground(x, 0.02, degrees(50.0 * x));
             const auto complete = scene.aligned(0, start, model, careful_effort);
-            compare(0, better_fitting(scene, than, start, model), complete,
-                    fits_better(complete.evidence, than.evidence));
+            compare(
+                0, better_fitting(scene, careful, start, model), complete,
+                complete.evidence.samples > 0 && fits_better(complete.evidence, careful.evidence));
             const auto rough = scene.aligned(0, start, model, rough_effort);
             const double least = std::max(scene_evidence::worth, 1.1 * than.probability);
             compare(1, more_probable(scene, than, start, model, rough_effort), rough,

@@ -60,12 +60,12 @@ namespace detail {
 
 /// The root mean square of ranges about the plane that fits them best [m], of rays that are next to
 /// ray i. On a plane, the inverse range is linear in the direction of the ray.
-/// @param near  neighbors in `rays`, ray i among them
+/// @param nearby  neighbors in `rays`, ray i among them
 [[nodiscard]] inline double rms_about_plane(const ray_sphere& rays, std::size_t i,
-                                            const auto& near) {
+                                            const auto& nearby) {
     const Eigen::Vector3d ray = rays.ray_of(i), u = orthogonal(ray), v = cross(ray, u);
     Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();  // of products of 1, u, v and inverse range
-    for (const neighbor& q : near) {
+    for (const neighbor& q : nearby) {
         const Eigen::Vector3d way = rays.ray_of(q.index);
         const Eigen::Vector4d row(1.0, dot(way, u), dot(way, v), 1.0 / rays.range_of(q.index));
         sums += row * row.transpose();
@@ -104,16 +104,16 @@ class mixed_point_test {
         const double sigma = options_.noise.along(scaled(own, rays_.ray_of(i)));
         const double step = std::max(options_.min_step, deviations * sigma);
         const double reach = 0.5 * options_.divergence.radians() + reach_.around(rays_, i);
-        scratch<neighbor> near;
-        rays_.within_into(near, i, reach);
+        scratch<neighbor> nearby;
+        rays_.within_into(nearby, i, reach);
         double nearest = own, farthest = own;
-        for (const neighbor& q : near) {
+        for (const neighbor& q : nearby) {
             nearest = std::min(nearest, rays_.range_of(q.index));
             farthest = std::max(farthest, rays_.range_of(q.index));
         }
         if (!(nearest < own - step && farthest > own + step)) return false;
-        std::sort(near.begin(), near.end());  // sums depend on the order
-        return rms_about_plane(rays_, i, near) > uneven * step;
+        std::sort(nearby.begin(), nearby.end());  // sums depend on the order
+        return rms_about_plane(rays_, i, nearby) > uneven * step;
     }
 
   private:

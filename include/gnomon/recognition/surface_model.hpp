@@ -113,13 +113,13 @@ class surface_model {
         constexpr double same_side = 0.8;  // chosen: cosine of 37 degrees, as in alignments
         std::vector<Eigen::Vector3d> points;
         std::vector<bool> is_covered(all_.points.size(), false);
-        std::vector<neighbor> near;
+        std::vector<neighbor> nearby;
         for (std::size_t i = 0; i < is_covered.size(); ++i) {
             if (is_covered[i]) continue;
             points.push_back(all_.points[i]);
             coarse_.normals.push_back(all_.normals[i]);
-            all_.points.within_into(near, points.back(), spacings * spacing_);
-            for (const neighbor& q : near) {
+            all_.points.within_into(nearby, points.back(), spacings * spacing_);
+            for (const neighbor& q : nearby) {
                 const auto& other = all_.normals[q.index].normal;
                 if (gnomon::detail::dot(other, all_.normals[i].normal) > same_side)
                     is_covered[q.index] = true;

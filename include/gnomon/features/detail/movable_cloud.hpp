@@ -63,7 +63,7 @@ struct movable_cloud {
         with_table_of(range, [&](const viewpoint_table& viewpoints) {
             points.reserve(p.size());
             const Eigen::Vector3d first = first_of(p, is_near);
-            scratch<point_index> near;
+            scratch<point_index> nearby;
             for (std::size_t i = 0; i < p.size(); ++i) {
                 const Eigen::Vector3d x = p[i];
                 if (!is_finite(x)) continue;
@@ -74,14 +74,14 @@ struct movable_cloud {
                 if (!viewpoints.empty() && is_finite(v) && has_length(way))
                     m.ray = direction_of(way);
                 if (all_finite(n) && has_length(n)) m.normal = direction_of(n);
-                if (is_near(x)) near.push_back(static_cast<point_index>(points.size()));
+                if (is_near(x)) nearby.push_back(static_cast<point_index>(points.size()));
                 points.push_back(m);
             }
             if (points.empty()) return;
-            const bool all = near.empty();
-            const std::size_t counted = all ? points.size() : near.size();
+            const bool all = nearby.empty();
+            const std::size_t counted = all ? points.size() : nearby.size();
             const auto at = [&](std::size_t k) -> const Eigen::Vector3d& {
-                return points[all ? k : near[k]].at;
+                return points[all ? k : nearby[k]].at;
             };
             Eigen::Vector3d sum(0.0, 0.0, 0.0);
             for (std::size_t k = 0; k < counted; ++k) {

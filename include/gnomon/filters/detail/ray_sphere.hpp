@@ -84,9 +84,9 @@ class ray_sphere {
     [[nodiscard]] bool is_surrounded(std::size_t i, double reach) const {
         const Eigen::Vector3d u = orthogonal(rays_[i]), v = cross(rays_[i], u);
         scratch<double> azimuths;
-        scratch<neighbor> near;
-        within_into(near, i, reach);
-        for (const neighbor& q : near) {
+        scratch<neighbor> nearby;
+        within_into(nearby, i, reach);
+        for (const neighbor& q : nearby) {
             // Other echoes of the same ray have no direction from it.
             if (q.squared_distance < same_ray * same_ray) continue;
             if (std::abs(ranges_[q.index] - ranges_[i]) > max_jump_) continue;

@@ -134,15 +134,15 @@ class leaf_tree {
         if (is_near(root())) waiting[depth++] = root();
         while (depth > 0) {
             subtree t = waiting[--depth];
-            bool near = true;
-            while (near && !t.is_leaf()) {
+            bool nearby = true;
+            while (nearby && !t.is_leaf()) {
                 const auto [left, right] = t.children();
                 waiting[depth] = right;
                 depth += static_cast<std::size_t>(is_near(right));
-                near = is_near(left);
+                nearby = is_near(left);
                 t = left;
             }
-            if (near) visit(t.first, boxes_[t.node]);
+            if (nearby) visit(t.first, boxes_[t.node]);
         }
     }
 

@@ -7,23 +7,26 @@
 
 namespace gnomon::recognition::detail {
 
-/// Numbers of cells, iterations and samples are chosen for speed: results depend on them little.
+/// What one alignment and its verification use. Numbers of cells, iterations and samples are chosen
+/// for speed: results depend on them little.
 struct alignment_effort {
-    std::size_t cells;    ///< that are aligned
-    bool all_samples;     ///< of the model, or the coarse ones, with which these are aligned
-    int iterations;       ///< of an alignment
-    std::size_t samples;  ///< that are verified
-    /// Between cells and samples that correspond at first [m]. Surfaces of other objects that are
-    /// as near pull an object away from where it is.
-    double farthest;
+    std::size_t cells;    ///< the most that are aligned
+    bool all_samples;     ///< whether with all samples of the model, or with the coarse ones
+    int iterations;       ///< the most of an alignment
+    std::size_t samples;  ///< the most that are verified
+    /// Between cells and samples that correspond at first [m]: within it, surfaces of neighbors
+    /// pull an object away. Chosen on touching rooms of seeds 101 to 160 and 541 to 590, of .05 to
+    /// .15 m.
+    double max_distance;
 };
 
-/// From places that votes or a search give, which are up to 10 cm off; from these, if they are
-/// less; from starts 8 cm next to a pose that was aligned before; and from such a pose itself.
-/// Chosen for speed, the distances on touching rooms of seeds 101 to 160 and 541 to 590, of .05 to
-/// .15 m.
-inline constexpr alignment_effort rough_effort{64, false, 15, 150, 0.15},
-    near_effort{64, false, 15, 150, 0.05}, repeated_effort{64, false, 15, 150, 0.08},
-    careful_effort{600, true, 50, 1000, 0.05};
+/// From the place of votes or of a search, which is up to 10 cm off.
+inline constexpr alignment_effort rough_effort{64, false, 15, 150, 0.15};
+/// From there, too, if it is less off.
+inline constexpr alignment_effort near_effort{64, false, 15, 150, 0.05};
+/// From a start 8 cm next to a pose that was aligned.
+inline constexpr alignment_effort repeated_effort{64, false, 15, 150, 0.08};
+/// For poses that were aligned roughly.
+inline constexpr alignment_effort careful_effort{600, true, 50, 1000, 0.05};
 
 }  // namespace gnomon::recognition::detail

@@ -130,7 +130,7 @@ inline void unite(std::vector<found_object>& objects, std::vector<std::int32_t>&
     std::vector<std::int32_t> place;
     for (found_object& o : objects) {
         const auto same = std::ranges::find_if(
-            kept, [&](const found_object& k) { return is_one(o, k, surfaces[o.object]); });
+            kept, [&](const found_object& k) { return is_same(o, k, surfaces[o.object]); });
         place.push_back(static_cast<std::int32_t>(same - kept.begin()));
         if (same == kept.end()) kept.push_back(std::move(o));
     }

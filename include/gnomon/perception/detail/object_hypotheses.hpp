@@ -25,23 +25,21 @@
 
 namespace gnomon::recognition::detail {
 
+/// Chosen: hypotheses that are less than three cells apart [m], and by less than what is as wide at
+/// 35 cm from the middle, are one.
+inline constexpr double apart_as_cells = 0.03;
+inline constexpr angle turned_as_cells = degrees(5.0);
+
 /// Whether two hypotheses are one object at one pose, less than `apart` [m] and `turn` off.
 /// @param model  of the first
 [[nodiscard]] inline bool is_same(const found_object& a, const found_object& b,
-                                  const surface_model& model, double apart, angle turn) {
+                                  const surface_model& model, double apart = apart_as_cells,
+                                  angle turn = turned_as_cells) {
     if (a.object != b.object) return false;
     const rigid_motion between = a.aligned.pose.inverse() * b.aligned.pose;
     const angle heading = radians(std::atan2(between.rotation(1, 0), between.rotation(0, 0)));
     return gnomon::detail::length(between.position) < apart &&
            model.symmetry().difference(heading, degrees(0.0)) < turn;
-}
-
-/// Whether they are so near each other that they are one.
-[[nodiscard]] inline bool is_one(const found_object& a, const found_object& b,
-                                 const surface_model& model) {
-    constexpr double apart = 0.03;        // chosen: three cells [m]
-    constexpr angle turn = degrees(5.0);  // chosen: as wide at 35 cm from the middle
-    return is_same(a, b, model, apart, turn);
 }
 
 /// A hypothesis, or the same object aligned from a start next to it, and again from one next to
@@ -71,7 +69,9 @@ namespace gnomon::recognition::detail {
     return best;
 }
 
-/// The same object, aligned from another pose, if it is worth it and clearly more probable there.
+/// The same object, aligned from another pose, if it is worth it and clearly more probable there: a
+/// pose of a probability above 0.91 is kept.
+/// @param than  neither recognized nor compared by its silhouette
 [[nodiscard]] inline std::optional<found_object> more_probable(const scene_evidence& scene,
                                                                const found_object& than,
                                                                const rigid_motion& start,
@@ -87,14 +87,15 @@ namespace gnomon::recognition::detail {
 }
 
 /// The same object, aligned carefully from another pose, if it fits better there.
+/// @param than  aligned carefully, too: numbers of samples are compared
 [[nodiscard]] inline std::optional<found_object> better_fitting(const scene_evidence& scene,
                                                                 const found_object& than,
                                                                 const rigid_motion& start,
                                                                 const surface_model& model) {
-    return scene.aligned_unless(than.object, start, model, careful_effort,
-                                [&](const found_object& h, std::size_t left) {
-                                    return !fits_better(h.evidence, than.evidence, left);
-                                });
+    return scene.aligned_unless(
+        than.object, start, model, careful_effort, [&](const found_object& h, std::size_t left) {
+            return h.evidence.samples == 0 || !fits_better(h.evidence, than.evidence, left);
+        });
 }
 
 /// A hypothesis that was aligned roughly, improved.
@@ -136,9 +137,10 @@ namespace gnomon::recognition::detail {
                                                   const object_place& place,
                                                   std::span<const surface_model> models) {
     const surface_model& model = models[place.object];
-    found_object far = scene.aligned(place.object, place.pose, model, rough_effort);
-    auto near = more_probable(scene, far, place.pose, model, near_effort);
-    return near ? *std::move(near) : far;
+    found_object rough = scene.aligned(place.object, place.pose, model, rough_effort);
+    if (auto better = more_probable(scene, rough, place.pose, model, near_effort))
+        return *std::move(better);
+    return rough;
 }
 
 /// The hypotheses that are worth it, the most probable one first, and of those that are one object
@@ -150,7 +152,7 @@ namespace gnomon::recognition::detail {
     for (found_object& h : hypotheses) {
         if (h.probability < scene_evidence::worth) break;
         if (std::ranges::none_of(
-                kept, [&](const found_object& k) { return is_one(h, k, models[h.object]); }))
+                kept, [&](const found_object& k) { return is_same(h, k, models[h.object]); }))
             kept.push_back(std::move(h));
     }
     return kept;

@@ -106,7 +106,9 @@ class scene_evidence {
     }
 
     /// An object, aligned from a pose and verified, or none as soon as it is refused.
-    /// @param is_refused  (hypothesis, left): by the counts of all but the last `left` samples
+    /// @param is_refused  (h, left): by the votes and the counts of points of a hypothesis, and of
+    ///                    all but the last `left` samples; its probability is not set. With too few
+    ///                    cells nothing is counted.
     [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
                                                              const rigid_motion& start,
                                                              const surface_model& model,
@@ -130,7 +132,7 @@ class scene_evidence {
         h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
                                        {.noise = noise_,
                                         .on_ground = true,
-                                        .max_distance = much.farthest,
+                                        .max_distance = much.max_distance,
                                         .max_iterations = much.iterations});
         const verification_options how{.noise = noise_, .most = much.samples};
         pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);

@@ -170,11 +170,14 @@ class silhouette_rays {
                                       double range, double slope, double distance) const {
         constexpr double oblique = -0.02;  // chosen: cosine; faces meet the ray at a range
         constexpr double apart = 0.1;      // [m]; chosen: a step that noise does not hide
-        double far = range;
-        for_each_around(image, pixel,
-                        [&](const range_image::pixel&, double r) { far = std::max(far, r); });
-        const double near = slope < oblique ? distance / slope : range;
-        return near < range && far - near > apart ? (far - range) / (far - near) : 0.0;
+        double farthest = range;
+        for_each_around(image, pixel, [&](const range_image::pixel&, double r) {
+            farthest = std::max(farthest, r);
+        });
+        const double nearby = slope < oblique ? distance / slope : range;
+        return nearby < range && farthest - nearby > apart
+                   ? (farthest - range) / (farthest - nearby)
+                   : 0.0;
     }
 
     /// Calls visit(pixel, range) for the pixels that a beam covers, at least those around its own,

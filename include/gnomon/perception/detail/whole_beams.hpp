@@ -42,24 +42,24 @@ namespace gnomon::recognition::detail {
 /// @param x       in the frame of the object [m]
 /// @param normal  likewise; compatible with all faces if it is missing
 /// @param half    of the width of the beam [m]
-/// @param near    working memory
+/// @param nearby  working memory
 [[nodiscard]] inline bool is_at_edge(const surface_model& model, const Eigen::Vector3d& x,
                                      const Eigen::Vector3d& normal, double half,
-                                     std::vector<neighbor>& near) {
+                                     std::vector<neighbor>& nearby) {
     using gnomon::detail::combined, gnomon::detail::difference, gnomon::detail::dot;
     constexpr double turned = 0.7;     // chosen: cosine of 45 degrees
     constexpr double spacings = 2.0;   // chosen: a sample of the other face is as near
     constexpr std::size_t most = 200;  // chosen: more than are so near if spaced by 5 mm
-    model.points().nearest_within_into(near, x, most, half + spacings * model.spacing());
+    model.points().nearest_within_into(nearby, x, most, half + spacings * model.spacing());
     const auto normal_of = [&](const neighbor& q) { return model.normals()[q.index].normal; };
-    const auto own = std::ranges::find_if(near, [&](const neighbor& q) {
+    const auto own = std::ranges::find_if(nearby, [&](const neighbor& q) {
         return is_missing(normal) || std::abs(dot(normal_of(q), normal)) >= turned;
     });
-    if (own == near.end()) return true;
+    if (own == nearby.end()) return true;
     const Eigen::Vector3d face = normal_of(*own);
     const double off = dot(face, difference(x, model.points()[own->index]));
     const Eigen::Vector3d on_face = combined(1.0, x, -off, face);
-    return std::ranges::any_of(near, [&](const neighbor& q) {
+    return std::ranges::any_of(nearby, [&](const neighbor& q) {
         const Eigen::Vector3d other = normal_of(q);
         return std::abs(dot(other, face)) < turned &&
                std::abs(dot(other, difference(on_face, model.points()[q.index]))) < half;
@@ -120,7 +120,7 @@ struct whole_beams {
                                          const surface_model& model, const rigid_motion& pose,
                                          angle divergence, double margin) {
     whole_beams found;
-    std::vector<neighbor> near;
+    std::vector<neighbor> nearby;
     const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
     for_each_point_in(index, pose, model.low() - around, model.high() + around,
                       [&](point_index i, const Eigen::Vector3d& x) {
@@ -131,7 +131,7 @@ struct whole_beams {
                           found.widest = std::max(found.widest, width);
                           if (mixed != nullptr && (*mixed)(i)) return;
                           const Eigen::Vector3d normal = pose.direction_in(normals[i].normal);
-                          if (!is_at_edge(model, x, normal, 0.5 * width, near))
+                          if (!is_at_edge(model, x, normal, 0.5 * width, nearby))
                               found.points.push_back(i);
                       });
     return found;
