@@ -15,15 +15,12 @@ struct alignment_effort {
     int iterations;       ///< the most of an alignment
     std::size_t samples;  ///< the most that are verified
     /// Between cells and samples that correspond at first [m]: within it, surfaces of neighbors
-    /// pull an object away. Chosen on touching rooms of seeds 101 to 160 and 541 to 590, of .05 to
-    /// .15 m.
+    /// pull an object away. Chosen on touching rooms of seeds 101 to 140, of .05 to .15 m.
     double max_distance;
 };
 
 /// From the place of votes or of a search, which is up to 10 cm off.
 inline constexpr alignment_effort rough_effort{64, false, 15, 150, 0.15};
-/// From there, too, if it is less off.
-inline constexpr alignment_effort near_effort{64, false, 15, 150, 0.05};
 /// From a start 8 cm next to a pose that was aligned.
 inline constexpr alignment_effort repeated_effort{64, false, 15, 150, 0.08};
 /// For poses that were aligned roughly.

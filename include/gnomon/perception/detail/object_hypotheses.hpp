@@ -43,9 +43,9 @@ inline constexpr angle turned_as_cells = degrees(5.0);
 }
 
 /// A hypothesis, or the same object aligned from a start next to it, and again from one next to
-/// that, where it is clearly better: an alignment may end where a slat of the model is on the next
-/// slat of the chair.
-/// @param better_from  (best, start): the same object, aligned from a start, if it is better
+/// that, where it fits clearly better: an alignment may end where a slat of the model is on the
+/// next slat of the chair.
+/// @param better_from  (best, start): the same object, aligned from a start, if it fits better
 [[nodiscard]] inline found_object improved(found_object best, const auto& better_from) {
     constexpr int most = 3;                // rounds; chosen: few change in the third
     constexpr double step = 0.08;          // [m]; chosen, and tried on rooms of seeds 1 to 14
@@ -69,41 +69,12 @@ inline constexpr angle turned_as_cells = degrees(5.0);
     return best;
 }
 
-/// The same object, aligned from another pose, if it is worth it and clearly more probable there: a
-/// pose of a probability above 0.91 is kept.
-/// @param than  neither recognized nor compared by its silhouette
-[[nodiscard]] inline std::optional<found_object> more_probable(const scene_evidence& scene,
-                                                               const found_object& than,
-                                                               const rigid_motion& start,
-                                                               const surface_model& model,
-                                                               const alignment_effort& much) {
-    constexpr double clearly = 1.1;  // chosen on touching rooms of seeds 101 to 160, of 1 and 1.1
-    const double least = std::max(scene_evidence::worth, clearly * than.probability);
-    if (least >= 1.0) return std::nullopt;
-    return scene.aligned_unless(than.object, start, model, much,
-                                [&](const found_object& h, std::size_t left) {
-                                    return !(probability_at_most(h, left) > least);
-                                });
-}
-
-/// The same object, aligned carefully from another pose, if it fits better there.
-/// @param than  aligned carefully, too: numbers of samples are compared
-[[nodiscard]] inline std::optional<found_object> better_fitting(const scene_evidence& scene,
-                                                                const found_object& than,
-                                                                const rigid_motion& start,
-                                                                const surface_model& model) {
-    return scene.aligned_unless(
-        than.object, start, model, careful_effort, [&](const found_object& h, std::size_t left) {
-            return h.evidence.samples == 0 || !fits_better(h.evidence, than.evidence, left);
-        });
-}
-
 /// A hypothesis that was aligned roughly, improved.
 [[nodiscard]] inline found_object improved_roughly(const scene_evidence& scene,
                                                    const found_object& rough,
                                                    const surface_model& model) {
     return improved(rough, [&](const found_object& best, const rigid_motion& start) {
-        return more_probable(scene, best, start, model, repeated_effort);
+        return scene.aligned_better(best, start, model, repeated_effort);
     });
 }
 
@@ -116,8 +87,9 @@ inline constexpr angle turned_as_cells = degrees(5.0);
         constexpr double apart = 0.01;  // [m]; chosen on rooms of seeds 1 to 60, of .01 and .03
         constexpr angle turn = degrees(2.0);  // chosen: as wide at 30 cm from the middle
         const found_object rough = scene.aligned(best.object, start, model, repeated_effort);
-        return is_same(best, rough, model, apart, turn) ? std::nullopt
-                                                        : better_fitting(scene, best, start, model);
+        return is_same(best, rough, model, apart, turn)
+                   ? std::nullopt
+                   : scene.aligned_better(best, start, model, careful_effort);
     });
 }
 
@@ -130,17 +102,11 @@ inline constexpr angle turned_as_cells = degrees(5.0);
     return careful;
 }
 
-/// An object that may stand at a place: aligned roughly from there, by surfaces that are up to 15
-/// cm away, or by nearer ones only if that makes it more probable: neighbors do not pull it away
-/// then.
+/// An object that may stand at a place: aligned roughly from there.
 [[nodiscard]] inline found_object aligned_roughly(const scene_evidence& scene,
                                                   const object_place& place,
                                                   std::span<const surface_model> models) {
-    const surface_model& model = models[place.object];
-    found_object rough = scene.aligned(place.object, place.pose, model, rough_effort);
-    if (auto better = more_probable(scene, rough, place.pose, model, near_effort))
-        return *std::move(better);
-    return rough;
+    return scene.aligned(place.object, place.pose, models[place.object], rough_effort);
 }
 
 /// The hypotheses that are worth it, the most probable one first, and of those that are one object

@@ -102,50 +102,18 @@ class scene_evidence {
                                        const surface_model& model,
                                        const alignment_effort& much) const {
         return *aligned_unless(object, start, model, much,
-                               [](const found_object&, std::size_t) { return false; });
+                               [](const verification&, std::size_t) { return false; });
     }
 
-    /// An object, aligned from a pose and verified, or none as soon as it is refused.
-    /// @param is_refused  (h, left): by the votes and the counts of points of a hypothesis, and of
-    ///                    all but the last `left` samples; its probability is not set. With too few
-    ///                    cells nothing is counted.
-    [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
+    /// The same object, aligned from another pose, if it fits better there.
+    [[nodiscard]] std::optional<found_object> aligned_better(const found_object& than,
                                                              const rigid_motion& start,
                                                              const surface_model& model,
-                                                             const alignment_effort& much,
-                                                             const auto& is_refused) const {
-        constexpr double margin = 0.10;  // [m]: error of votes; chosen: `reach` of these
-        found_object h;
-        h.object = object;
-        h.aligned.pose = start;
-        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
-        std::vector<point_index> inside;
-        for_each_point_in(index_, start, model.low() - around, model.high() + around,
-                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
-        const bool is_enough = inside.size() >= fewest;
-        if (!is_enough && is_refused(h, 0)) return std::nullopt;
-        if (!is_enough) {
-            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
-            return h;
-        }
-        const auto& samples = much.all_samples ? model.all() : model.coarse();
-        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
-                                       {.noise = noise_,
-                                        .on_ground = true,
-                                        .max_distance = much.max_distance,
-                                        .max_iterations = much.iterations});
-        const verification_options how{.noise = noise_, .most = much.samples};
-        pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
-        verifier.count_points(all_points);
-        h.votes = votes_.at(object, h.aligned.pose);
-        const auto normal_of = [&](point_index i) { return surface_[i].normal; };
-        const auto stops = [&](const verification& counts, std::size_t left) {
-            h.evidence = counts;
-            return is_refused(h, left);
-        };
-        if (!verifier.count_samples(normal_of, stops)) return std::nullopt;
-        h.probability = probability_of(h);
-        return h;
+                                                             const alignment_effort& much) const {
+        return aligned_unless(than.object, start, model, much,
+                              [&](const verification& v, std::size_t left) {
+                                  return v.samples == 0 || !fits_better(v, than.evidence, left);
+                              });
     }
 
     /// The alignment of an object that was found, by the cells that whole beams hit, and by its
@@ -219,6 +187,44 @@ class scene_evidence {
     [[nodiscard]] std::size_t size() const { return cells_.size(); }
 
   private:
+    /// An object, aligned from a pose and verified, or none as soon as it is refused.
+    /// @param is_refused  (counts, left): by the counts of all but the last `left` samples
+    [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
+                                                             const rigid_motion& start,
+                                                             const surface_model& model,
+                                                             const alignment_effort& much,
+                                                             const auto& is_refused) const {
+        constexpr double margin = 0.10;  // [m]: error of votes; chosen: `reach` of these
+        found_object h;
+        h.object = object;
+        h.aligned.pose = start;
+        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
+        std::vector<point_index> inside;
+        for_each_point_in(index_, start, model.low() - around, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
+        const bool is_enough = inside.size() >= fewest;
+        if (!is_enough && is_refused(h.evidence, 0)) return std::nullopt;
+        if (!is_enough) {
+            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
+            return h;
+        }
+        const auto& samples = much.all_samples ? model.all() : model.coarse();
+        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
+                                       {.noise = noise_,
+                                        .on_ground = true,
+                                        .max_distance = much.max_distance,
+                                        .max_iterations = much.iterations});
+        const verification_options how{.noise = noise_, .most = much.samples};
+        pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
+        const auto normal_of = [&](point_index i) { return surface_[i].normal; };
+        if (!verifier.count_samples(normal_of, is_refused)) return std::nullopt;
+        verifier.count_points(all_points);
+        h.evidence = verifier.counts();
+        h.votes = votes_.at(object, h.aligned.pose);
+        h.probability = probability_of(h);
+        return h;
+    }
+
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
 
     const voxel_grid::means& cells_;
