@@ -42,6 +42,7 @@ function(add_headers_alone target)
     add_library(${target} OBJECT EXCLUDE_FROM_ALL ${sources})
     target_link_libraries(${target} PRIVATE gnomon::gnomon)
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+    target_compile_definitions(${target} PRIVATE near= far=)  # as <windows.h> defines them
 endfunction()
 add_headers_alone(headers_without_eigen ${pending})
 add_headers_alone(headers_with_eigen ${names_with_eigen})
