@@ -106,7 +106,7 @@ class object_finder {
 
     /// Fits the recognizer of parts, to be called after all views are learned.
     /// @param run  the result does not depend on it
-    /// @throws std::invalid_argument  unless views of two names, maybe background, were learned
+    /// @throws std::invalid_argument  if views of one name or none (background is one) were learned
     /// Complexity: that of object_recognizer::fit().
     template <execution X = sequential>
     void fit(const X& run = {}) {
@@ -157,8 +157,8 @@ class object_finder {
     /// @param points   as above
     /// @param places   m objects, each at most 10 cm and 15 degrees from where it is
     /// @param options  as above; the least probability is not used
-    /// @return m hypotheses in the order of the places, with too few points or without ground of
-    ///         probability 0. Poses of hypotheses of less than 0.01 are not refined
+    /// @return m hypotheses in the order of the places, of probability 0 with too few points or
+    ///         without ground. Poses of hypotheses of less than 0.01 are not refined
     /// @throws std::invalid_argument  as above, or if there is no such object or a pose is no rigid
     ///                                motion
     /// Complexity: O(n log n), and for each place some alignments as above.

@@ -145,7 +145,7 @@ class image_of_surface {
         constexpr double beyond_band = 0.6;  // pixels; chosen: a part of one
         const facing_sample& s = samples_[i];
         // Tangents of angles: from the sample to its rays, and to those next to it.
-        const double nearby = spacings * spacing / s.range;
+        const double on_sample = spacings * spacing / s.range;
         const double reach = (static_cast<double>(band_) + beyond_band) * pixel;
         const Eigen::Vector2d at =
             plane_.place_of(gnomon::detail::difference(s.at, plane_.viewpoint));
@@ -157,7 +157,7 @@ class image_of_surface {
             for (auto a = x - band_; a <= x + band_; ++a) {
                 const auto k = static_cast<std::size_t>(b) * width_ + static_cast<std::size_t>(a);
                 const double squared = (places_[k] - at).squaredNorm();
-                const bool is_on = squared < nearby * nearby;
+                const bool is_on = squared < on_sample * on_sample;
                 if (!is_on && !(squared < reach * reach)) continue;
                 next& n = nearest_[k];
                 const double off = is_on ? s.range : squared;

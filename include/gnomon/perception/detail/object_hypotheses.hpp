@@ -25,16 +25,15 @@
 
 namespace gnomon::recognition::detail {
 
-/// Chosen: hypotheses that are less than three cells apart [m], and by less than what is as wide at
-/// 35 cm from the middle, are one.
-inline constexpr double apart_as_cells = 0.03;
-inline constexpr angle turned_as_cells = degrees(5.0);
+/// Hypotheses that differ by less are one.
+inline constexpr double apart_of_one = 0.03;        // [m]; chosen: three cells
+inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm from the middle
 
 /// Whether two hypotheses are one object at one pose, less than `apart` [m] and `turn` off.
 /// @param model  of the first
 [[nodiscard]] inline bool is_same(const found_object& a, const found_object& b,
-                                  const surface_model& model, double apart = apart_as_cells,
-                                  angle turn = turned_as_cells) {
+                                  const surface_model& model, double apart = apart_of_one,
+                                  angle turn = turn_of_one) {
     if (a.object != b.object) return false;
     const rigid_motion between = a.aligned.pose.inverse() * b.aligned.pose;
     const angle heading = radians(std::atan2(between.rotation(1, 0), between.rotation(0, 0)));

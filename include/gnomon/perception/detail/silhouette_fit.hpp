@@ -148,14 +148,14 @@ class silhouette_fit {
                                              const noise_curve& noise, angle divergence,
                                              const Eigen::Vector3d& up) {
     constexpr double known = 0.004;  // deviation [m]; chosen: silhouettes resolve 2 cm
-    constexpr double nearby = 0.01;  // [m]; chosen: a third of a beam at 3 m
+    constexpr double still = 0.01;   // [m]; chosen: a third of a beam at 3 m
     constexpr int most = 3;          // chosen: of far starts the second one is near
     const ground_motions motions(found, model, up);
     if (!(motions.variances()[0] > known * known)) return found;
     ground_motions::motion at(0.0, 0.0, 0.0);
     std::optional<silhouette_fit> fit;
-    double moved = 2.0 * nearby;
-    for (int round = 0; round < most && moved > nearby; ++round) {
+    double moved = 2.0 * still;
+    for (int round = 0; round < most && moved > still; ++round) {
         fit.emplace(seen, points, noise, divergence, model, motions.pose_after(at));
         if (!fit->has_rays()) return found;
         const ground_motions::motion next = fit->best(motions, at);

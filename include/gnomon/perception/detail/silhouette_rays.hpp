@@ -174,9 +174,9 @@ class silhouette_rays {
         for_each_around(image, pixel, [&](const range_image::pixel&, double r) {
             farthest = std::max(farthest, r);
         });
-        const double nearby = slope < oblique ? distance / slope : range;
-        return nearby < range && farthest - nearby > apart
-                   ? (farthest - range) / (farthest - nearby)
+        const double nearest = slope < oblique ? distance / slope : range;
+        return nearest < range && farthest - nearest > apart
+                   ? (farthest - range) / (farthest - nearest)
                    : 0.0;
     }
 
