@@ -28,6 +28,7 @@
 #include <gnomon/recognition/view_novelty.hpp>
 #include <gnomon/recognition/views_of.hpp>
 #include <gnomon/recognition/vocabulary.hpp>
+#include <gnomon/recognition/wall.hpp>
 #include <gnomon/recognition/weighted_distance.hpp>
 #include <gnomon/recognition/word_histograms.hpp>
 #include <gnomon/recognition/x_means.hpp>

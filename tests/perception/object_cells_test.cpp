@@ -45,11 +45,14 @@ struct wall_with_board {
         add(board, 2.0, 1.0, gnomon::unlabeled, false);
         cells.viewpoints = Eigen::Vector3d(3.0, 0.0, 1.0);
     }
+    [[nodiscard]] rec::detail::separated_walls separated(double noise) const {
+        return rec::detail::separate_walls(cells, surface,
+                                           gnomon::segments(std::vector<std::int32_t>(labels)), 2.2,
+                                           gnomon::constant_noise{noise}, Eigen::Vector3d::UnitZ());
+    }
     /// Whether the board is left, and no cell of the wall.
     [[nodiscard]] bool is_separated(double noise) const {
-        const auto left = rec::detail::without_walls(
-            cells, surface, gnomon::segments(std::vector<std::int32_t>(labels)), 2.2,
-            gnomon::constant_noise{noise}, Eigen::Vector3d::UnitZ());
+        const auto left = separated(noise).others;
         std::vector<char> is_left(labels.size(), 0);
         for (const gnomon::point_index i : left) is_left[i] = 1;
         for (std::size_t i = 0; i < labels.size(); ++i)
@@ -67,8 +70,21 @@ TEST(object_cells, what_is_in_one_surface_with_a_wall_is_left_unless_in_its_plan
     EXPECT_TRUE(wall_with_board(0.02).is_separated(1e-6));
 }
 
+TEST(object_cells, walls_face_the_sensor) {
+    for (const double side : {3.0, -3.0}) {
+        wall_with_board seen(0.03);
+        seen.cells.viewpoints = Eigen::Vector3d(side, 0.0, 1.0);
+        const auto walls = seen.separated(0.005).walls;
+        ASSERT_EQ(walls.size(), 1u);
+        EXPECT_GT(walls[0].surface.normal.x() * side, 2.99);
+        EXPECT_NEAR(walls[0].surface.signed_distance({0.0, 1.0, 1.0}), 0.0, 0.005);
+        EXPECT_NEAR(walls[0].extent.lengths.maxCoeff(), 4.0, 0.05);
+    }
+}
+
 TEST(object_cells, short_surfaces_are_no_walls) {
     EXPECT_FALSE(wall_with_board(0.03, 1.5).is_separated(0.005));
+    EXPECT_TRUE(wall_with_board(0.03, 1.5).separated(0.005).walls.empty());
 }
 
 }  // namespace

@@ -26,6 +26,7 @@
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/wall.hpp>
 #include <gnomon/segmentation/segments.hpp>
 #include <gnomon/simulation.hpp>
 #include <gnomon/simulation/sample_surface.hpp>
@@ -78,8 +79,8 @@ class chair_in_scene {
         scene_.emplace(cells_, gnomon::visibility(scan, {.noise = scene_noise}),
                        rec::detail::imaged_points{
                            groups_, [this](gnomon::point_index i) { return points_[i]; }},
-                       rec::cast_votes({}, 1), scene_noise, gnomon::plane{}, assumed,
-                       gnomon::sequential{});
+                       rec::cast_votes({}, 1), scene_noise, gnomon::plane{},
+                       std::vector<rec::wall>(), assumed, gnomon::sequential{});
     }
 
     [[nodiscard]] const rec::detail::scene_evidence& scene() const { return *scene_; }
@@ -227,6 +228,11 @@ TEST(object_hypotheses, are_probable_by_their_silhouettes) {
     worse = o;
     worse.evidence.seen_through = 50;
     EXPECT_LT(rec::detail::probability_of(worse), 0.5);
+    EXPECT_TRUE(rec::detail::fits_better(o.evidence, worse.evidence));
+    worse = o;
+    worse.evidence.in_walls = 50;
+    EXPECT_LT(rec::detail::probability_of(worse), 0.5);
+    EXPECT_TRUE(rec::detail::fits_better(o.evidence, worse.evidence));
     const chair_in_scene chair(wide, wide);
     auto found =
         chair.scene().aligned(0, where_chair_is, chair.surfaces()[0], rec::detail::careful_effort);

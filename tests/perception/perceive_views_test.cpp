@@ -60,6 +60,10 @@ TEST(perceive_views, finds_each_object_of_a_room_without_floor_and_wall) {
         ASSERT_EQ(seen.views.size(), 3u);
         ASSERT_EQ(seen.groups.size(), 3u);
         EXPECT_EQ(seen.groups.labels().size(), room.scan.size());
+        ASSERT_EQ(seen.walls.size(), 1u);
+        EXPECT_NEAR(seen.walls[0].surface.normal.x(), -1.0, 1e-3);
+        EXPECT_NEAR(seen.walls[0].surface.signed_distance(origin + Eigen::Vector3d(4, 1, 1)), 0.0,
+                    0.01);
         std::vector<int> tables;
         for (std::size_t v = 0; v < 3; ++v) {
             const int table = room.table_of[seen.groups[v].front()];

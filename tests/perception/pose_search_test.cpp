@@ -12,9 +12,12 @@
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/core/scan.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/pose_search.hpp>
+#include <gnomon/recognition/wall.hpp>
 #include <gnomon/simulation.hpp>
 #include <gnomon/simulation/sample_surface.hpp>
 
@@ -87,12 +90,12 @@ TEST(pose_search, finds_objects_by_their_surfaces_alone) {
     moved.position = {4e5, 5e6, 300.0};
     for (const rigid_motion& motion : {rigid_motion{}, moved}) {
         const seen_models scene(models, poses, motion);
-        const auto places = rec::detail::search_poses(scene.cells, scene.frame, scene.seen,
+        const auto places = rec::detail::search_poses(scene.cells, scene.frame, scene.seen, {},
                                                       surfaces, gnomon::sequential{});
         for (std::size_t o = 0; o < models.size(); ++o)
             EXPECT_LT(rank_of(places, o, motion * poses[o], surfaces[o]), 2u) << models[o].name;
-        const auto again = rec::detail::search_poses(scene.cells, scene.frame, scene.seen, surfaces,
-                                                     gnomon::threads{3});
+        const auto again = rec::detail::search_poses(scene.cells, scene.frame, scene.seen, {},
+                                                     surfaces, gnomon::threads{3});
         ASSERT_EQ(again.size(), places.size());
         for (std::size_t i = 0; i < places.size(); ++i) {
             EXPECT_EQ(again[i].object, places[i].object);
@@ -107,7 +110,7 @@ TEST(pose_search, finds_no_table_where_a_chair_stands_alone) {
     const seen_models scene({all[0]}, {rigid_motion::on_ground(2.0, 0.0, degrees(160))});
     const auto desk = std::ranges::find(all, "desk", &sim::furniture_model::name);
     const std::vector surfaces{surface_of(*desk)};
-    EXPECT_TRUE(rec::detail::search_poses(scene.cells, scene.frame, scene.seen, surfaces,
+    EXPECT_TRUE(rec::detail::search_poses(scene.cells, scene.frame, scene.seen, {}, surfaces,
                                           gnomon::sequential{})
                     .empty());
 }
@@ -122,7 +125,7 @@ TEST(pose_search, finds_objects_far_from_each_other) {
     for (const double x : {-6.1, -6.4, -14.0, -3000.0}) {
         cells = scene.cells;
         cells.push_back({{x, -0.5, 0.4}, 1.0});
-        const auto places = rec::detail::search_poses(cells, scene.frame, scene.seen, surfaces,
+        const auto places = rec::detail::search_poses(cells, scene.frame, scene.seen, {}, surfaces,
                                                       gnomon::sequential{});
         EXPECT_LT(rank_of(places, 0, poses[0], surfaces[0]), 4u) << x;
     }
@@ -136,8 +139,8 @@ TEST(pose_search, leaves_out_what_is_larger_than_a_room) {
     std::vector<Eigen::Vector3d> huge;
     for (const Eigen::Vector3d& p : chair.points()) huge.push_back(1000.0 * p);
     const std::vector surfaces{rec::surface_model(huge, chair.normals(), 20.0), chair};
-    const auto places = rec::detail::search_poses(scene.cells, scene.frame, scene.seen, surfaces,
-                                                  gnomon::sequential{});
+    const auto places = rec::detail::search_poses(scene.cells, scene.frame, scene.seen, {},
+                                                  surfaces, gnomon::sequential{});
     EXPECT_FALSE(places.empty());
     EXPECT_TRUE(std::ranges::all_of(places, [](const auto& p) { return p.object == 1; }));
 }
@@ -155,17 +158,50 @@ TEST(pose_search, finds_no_mats) {
         }
     }
     const std::vector surfaces{rec::surface_model(mat, normals, 0.02)};
-    EXPECT_TRUE(rec::detail::search_poses(scene.cells, scene.frame, scene.seen, surfaces,
+    EXPECT_TRUE(rec::detail::search_poses(scene.cells, scene.frame, scene.seen, {}, surfaces,
                                           gnomon::sequential{})
                     .empty());
+}
+
+/// Without the wall, the hidden part of a desk may as well be behind it.
+TEST(pose_search, finds_nothing_in_walls) {
+    constexpr double at_wall = 3.0;  // [m]
+    const auto all = sim::furniture_models();
+    const auto desk = std::ranges::find(all, "desk", &sim::furniture_model::name);
+    const std::vector surfaces{surface_of(*desk)};
+    std::vector<Eigen::Vector3d> points;
+    for (double y = -3.0; y <= 3.0; y += 0.01)
+        for (double z = 0.0; z <= 2.4; z += 0.01) points.emplace_back(at_wall, y, z);
+    gnomon::scan scan;
+    scan.points = points;
+    scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 1.2);
+    const gnomon::visibility seen(scan, {.noise = gnomon::constant_noise{0.005}});
+    // What would be seen of a desk of which half is in the wall.
+    const rec::surface_model& model = surfaces.front();
+    const double x = at_wall - 0.5 * (model.low().x() + model.high().x());
+    std::vector<rec::detail::ground_cell> cells;
+    for (std::size_t i = 0; i < model.points().size(); ++i) {
+        const Eigen::Vector3d p = model.points()[i] + Eigen::Vector3d(x, 0.0, 0.0);
+        if (p.x() < at_wall && p.z() > 0.05)
+            cells.push_back({p, std::abs(model.normals()[i].normal.z())});
+    }
+    const rec::wall wall{{{-1.0, 0.0, 0.0}, -at_wall},
+                         {.center = {at_wall, 0.0, 1.2}, .lengths = {0.0, 6.0, 2.4}}};
+    const auto rank = [&](const std::vector<rec::wall>& walls) {
+        const auto places = rec::detail::search_poses(cells, rigid_motion{}, seen, walls, surfaces,
+                                                      gnomon::sequential{});
+        return rank_of(places, 0, rigid_motion::on_ground(x, 0.0, degrees(0)), model);
+    };
+    EXPECT_EQ(rank({}), 0u);
+    EXPECT_GT(rank({wall}), 0u);
 }
 
 TEST(pose_search, of_no_objects_finds_none) {
     const auto all = sim::furniture_models();
     const seen_models scene({all[0]}, {rigid_motion::on_ground(2.0, 0.8, degrees(160))});
-    EXPECT_TRUE(
-        rec::detail::search_poses(scene.cells, scene.frame, scene.seen, {}, gnomon::sequential{})
-            .empty());
+    EXPECT_TRUE(rec::detail::search_poses(scene.cells, scene.frame, scene.seen, {}, {},
+                                          gnomon::sequential{})
+                    .empty());
 }
 
 }  // namespace

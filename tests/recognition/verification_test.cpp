@@ -11,16 +11,17 @@ TEST(verification, states_shares) {
     EXPECT_EQ(v.explanation(), 0.0);
     EXPECT_EQ(v.observed(), 0.0);
     v.facing = 100;
+    v.in_walls = 10;
     v.supported = 30;
     v.seen_through = 20;
     v.mismatched = 10;
-    v.hidden = 25;
+    v.hidden = 15;
     v.unobserved = 15;
     v.points = 50;
     v.explained = 40;
-    EXPECT_DOUBLE_EQ(v.support(), 0.5);
+    EXPECT_DOUBLE_EQ(v.support(), 3.0 / 7.0);
     EXPECT_DOUBLE_EQ(v.explanation(), 0.8);
-    EXPECT_DOUBLE_EQ(v.observed(), 0.6);
+    EXPECT_DOUBLE_EQ(v.observed(), 0.7);
 }
 
 }  // namespace

@@ -2,14 +2,17 @@
 #include <stdexcept>
 #include <vector>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
 #include "recognition/room_views.hpp"
 #include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/scan.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/recognition/verify_pose.hpp>
+#include <gnomon/recognition/wall.hpp>
 
 namespace {
 
@@ -52,6 +55,7 @@ TEST(verify_pose, supports_true_poses) {
         EXPECT_GT(v.observed(), 0.7);
         EXPECT_GT(v.points, 100u);
         EXPECT_EQ(v.facing, v.supported + v.seen_through + v.mismatched + v.hidden + v.unobserved);
+        EXPECT_EQ(v.in_walls, 0u);
         EXPECT_LE(v.facing, v.samples);
     }
 }
@@ -107,6 +111,38 @@ TEST(verify_pose, knows_hidden_places) {
     EXPECT_EQ(v.explanation(), 0.0);
 }
 
+/// A desk that is pushed into a wall is hidden by it where it cannot be; one that is at the wall,
+/// or in the next room, is not.
+TEST(verify_pose, knows_what_stands_in_walls) {
+    constexpr double at_wall = 3.0;  // [m]
+    std::vector<Eigen::Vector3d> points;
+    for (double y = -2.0; y <= 2.0; y += 0.01)
+        for (double z = 0.0; z <= 2.0; z += 0.01) points.emplace_back(at_wall, y, z);
+    gnomon::scan scan;
+    scan.points = points;
+    scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 1.2);
+    const gnomon::spatial_index index(scan);
+    const gnomon::visibility seen(scan, {.noise = room_noise});
+    const rec::wall wall{{{-1.0, 0.0, 0.0}, -at_wall},
+                         {.center = {at_wall, 0.0, 1.0}, .lengths = {0.0, 4.0, 2.0}}};
+    const rec::surface_model& table = the_room().table;
+    const auto verify = [&](double into, const std::vector<rec::wall>& walls) {
+        const double x = at_wall - table.high().x() + into;
+        return rec::verify_pose(index, seen, table, rigid_motion::on_ground(x, 0.0, degrees(0)),
+                                {.noise = room_noise, .walls = walls});
+    };
+    const auto before = verify(-0.01, {wall}), in = verify(0.3, {wall}), without = verify(0.3, {}),
+               beyond = verify(3.0, {wall});
+    EXPECT_EQ(before.in_walls, 0u);
+    EXPECT_GT(in.in_walls, in.facing / 10);
+    EXPECT_EQ(in.hidden + in.in_walls, without.hidden);
+    EXPECT_EQ(without.in_walls, 0u);
+    EXPECT_EQ(in.facing, in.supported + in.seen_through + in.mismatched + in.in_walls + in.hidden +
+                             in.unobserved);
+    EXPECT_GT(beyond.hidden, beyond.facing / 2);
+    EXPECT_EQ(beyond.in_walls, 0u);
+}
+
 TEST(verify_pose, compares_normals) {
     const auto& room = the_room();
     struct with_normal {
@@ -148,6 +184,9 @@ TEST(verify_pose, refuses_what_cannot_be_meant) {
     EXPECT_THROW((void)with({.lowest = clouds::nan}), std::invalid_argument);
     EXPECT_THROW((void)with({.around = -0.01}), std::invalid_argument);
     EXPECT_THROW((void)with({.around = clouds::nan}), std::invalid_argument);
+    EXPECT_THROW((void)with({.walls = {{{{0.0, 0.0, 2.0}, 0.0}, {}}}}), std::invalid_argument);
+    EXPECT_THROW((void)with({.walls = {{{}, {.lengths = {-1.0, 0.0, 0.0}}}}}),
+                 std::invalid_argument);
     EXPECT_THROW((void)with({.most = 0}), std::invalid_argument);
     rigid_motion doubled;
     doubled.rotation *= 2.0;

@@ -230,8 +230,8 @@ class object_finder {
         const detail::scene_evidence scene(
             cells, visibility(points, {.noise = noise}, team, projection),
             {seen.groups.labels(), [&](point_index i) { return position[i]; }},
-            votes_.votes(seen.views, team), noise, *seen.ground, options.divergence, team,
-            mixed ? &*mixed : nullptr);
+            votes_.votes(seen.views, team), noise, *seen.ground, seen.walls, options.divergence,
+            team, mixed ? &*mixed : nullptr);
         f(scene_of{kept, cells, scene});
         return seen;
     }

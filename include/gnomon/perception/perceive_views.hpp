@@ -43,6 +43,7 @@
 #include <gnomon/perception/detail/object_groups.hpp>
 #include <gnomon/recognition/view.hpp>
 #include <gnomon/recognition/views_of.hpp>
+#include <gnomon/recognition/wall.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -96,6 +97,7 @@ struct perceived_views {
     std::vector<view> views;      ///< the one of most cells first
     segments parts;               ///< of the n points; part::segment refers to these
     segments groups;              ///< of the n points: those of each view, with points of no part
+    std::vector<wall> walls;      ///< none where the gap is infinite
 };
 
 namespace detail {
@@ -179,8 +181,10 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const std::size_t least = std::max(fewest, options.min_points);
     std::vector<std::int32_t> part_of_cell(cells.size(), unlabeled), view_of_cell = part_of_cell;
     if (cells.size() >= least) {
-        const segments groups = detail::object_groups(
+        auto found = detail::object_groups(
             cells, options, result.ground ? result.ground->normal : options.up, team);
+        const segments& groups = found.groups;
+        result.walls = std::move(found.walls);
         auto seen = detail::seen_groups(cells, groups, least, options, result.ground, team);
         std::int32_t parts = 0;
         for (std::size_t g = 0; g < seen.size(); ++g) {

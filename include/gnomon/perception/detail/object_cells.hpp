@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The cells of a scan that may belong to objects, and how many neighbors their density allows.
+/// The cells of a scan that may belong to objects, the walls, and how many neighbors the density of
+/// cells allows.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +14,11 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/features/segment_shape.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/recognition/wall.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -46,47 +47,52 @@ namespace gnomon::recognition::detail {
     return std::min(k, std::max(least, static_cast<std::size_t>(within)));
 }
 
-/// The indices of points that are not of walls. Surfaces that are longer than `max_length` [m] and
+/// The walls of a scan, and the indices of the points that are not of these.
+struct separated_walls {
+    std::vector<wall> walls;
+    std::vector<point_index> others;
+};
+
+/// Finds walls. Surfaces that are longer than `max_length` [m] and
 /// not level, as two tops of one height that touch are, have the planes of walls. Points of such a
 /// surface, or of no surface, are of a wall within three deviations of the noise, or 1 cm, of its
 /// plane: the back of a chair at a wall may be in one surface with it, but is not in its plane.
 /// @param surface  of the n points, a `normal_range`
 /// @param noise    of the points, along their rays [m]
 /// Complexity: O(n) for each wall.
-[[nodiscard]] inline std::vector<point_index> without_walls(const auto& points, const auto& surface,
-                                                            const segments& parts,
-                                                            double max_length,
-                                                            const noise_curve& noise,
-                                                            const Eigen::Vector3d& up) {
+[[nodiscard]] inline separated_walls separate_walls(const auto& points, const auto& surface,
+                                                    const segments& parts, double max_length,
+                                                    const noise_curve& noise,
+                                                    const Eigen::Vector3d& up) {
     constexpr double level = 0.9;  // chosen: cosine; within 26 degrees
     using gnomon::detail::certain_deviations, gnomon::detail::flatness;
     constexpr double narrowest = certain_deviations * flatness;  // [m]: as that of floors
-    std::vector<plane> walls;
+    separated_walls result;
     std::vector<char> is_wall(parts.size(), 0);
     for (std::size_t s = 0; s < parts.size(); ++s) {
         const auto shape = segment_shape::of(points, surface, parts[s]);
         if (!shape.is_surface() || !(shape.frame.box_size.maxCoeff() > max_length)) continue;
-        const Eigen::Vector3d n = shape.frame.normal();
+        const Eigen::Vector3d& n = shape.normal;
         if (std::abs(gnomon::detail::dot(n, up)) > level) continue;
         is_wall[s] = 1;
-        walls.push_back({n, gnomon::detail::dot(n, shape.frame.centroid)});
+        result.walls.push_back(
+            {{n, gnomon::detail::dot(n, shape.frame.centroid)}, shape.frame.box()});
     }
     const auto is_in_wall = [&](std::size_t i) {
         const double sigma =
             noise.along(gnomon::detail::difference(points.points[i], points.viewpoints[i]));
         const double band = std::max(narrowest, gnomon::detail::most_deviations * sigma);
-        return std::any_of(walls.begin(), walls.end(), [&](const plane& w) {
-            return std::abs(w.signed_distance(points.points[i])) <= band;
+        return std::ranges::any_of(result.walls, [&](const wall& w) {
+            return std::abs(w.surface.signed_distance(points.points[i])) <= band;
         });
     };
-    std::vector<point_index> left;
     for (std::size_t i = 0; i < parts.labels().size(); ++i) {
         const std::int32_t label = parts.labels()[i];
         const bool is_elsewhere =
             label != unlabeled && is_wall[static_cast<std::size_t>(label)] == 0;
-        if (is_elsewhere || !is_in_wall(i)) left.push_back(static_cast<point_index>(i));
+        if (is_elsewhere || !is_in_wall(i)) result.others.push_back(static_cast<point_index>(i));
     }
-    return left;
+    return result;
 }
 
 }  // namespace gnomon::recognition::detail

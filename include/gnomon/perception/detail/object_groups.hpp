@@ -29,6 +29,7 @@
 #include <gnomon/perception/perception_result.hpp>
 #include <gnomon/recognition/view.hpp>
 #include <gnomon/recognition/views_of.hpp>
+#include <gnomon/recognition/wall.hpp>
 #include <gnomon/segmentation/euclidean_clusters.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -49,22 +50,30 @@ template <class R, execution X>
     return seen;
 }
 
-/// The groups of cells that may be objects: all in one, or those of at most a gap from each other
-/// that are not in walls. Takes over the noise that was measured on all.
+/// The groups of cells that may be objects, and the walls.
+struct groups_and_walls {
+    segments groups;
+    std::vector<wall> walls;
+};
+
+/// The groups of cells: all in one, or those of at most a gap from each other that are not in
+/// walls. Takes over the noise that was measured on all.
 template <execution X>
-[[nodiscard]] segments object_groups(const voxel_grid::means& cells, auto& options,
-                                     const Eigen::Vector3d& up, const X& run) {
-    if (!(options.gap < infinite_gap)) return segments(std::vector<std::int32_t>(cells.size(), 0));
+[[nodiscard]] groups_and_walls object_groups(const voxel_grid::means& cells, auto& options,
+                                             const Eigen::Vector3d& up, const X& run) {
+    if (!(options.gap < infinite_gap))
+        return {segments(std::vector<std::int32_t>(cells.size(), 0)), {}};
     const auto seen = surfaces_in(cells, options, run);
     if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
     const noise_curve noise = options.noise ? *options.noise : seen.noise.curve;
-    const auto left =
-        without_walls(cells, seen.surface, seen.surfaces, options.max_length, noise, up);
+    auto separated =
+        separate_walls(cells, seen.surface, seen.surfaces, options.max_length, noise, up);
+    const auto& left = separated.others;
     const auto nearby =
         euclidean_clusters(subset_view(cells, left), {.radius = options.gap, .min_points = 1}, run);
     std::vector<std::int32_t> labels(cells.size(), unlabeled);
     for (std::size_t i = 0; i < left.size(); ++i) labels[left[i]] = nearby.labels()[i];
-    return segments(std::move(labels));
+    return {segments(std::move(labels)), std::move(separated.walls)};
 }
 
 /// What is seen of a group of cells.

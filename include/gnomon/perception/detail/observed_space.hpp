@@ -16,6 +16,7 @@
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/recognition/wall.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -33,19 +34,21 @@ class observed_space {
   public:
     static constexpr double edge = 0.05;  // [m]; chosen: as wide as thin parts of furniture
     /// How much a sample of a surface counts: where the scan has cells of its kind, next to these,
-    /// where cells of the other kind are, and where the sensor saw through. Unknown space
-    /// counts nothing. Chosen on furnished_room() with clutter, seeds 1 to 20, and with touching
-    /// furniture, seeds 1 to 10.
+    /// where cells of the other kind are, and where the sensor saw through or a wall is. Unknown
+    /// space counts nothing. Chosen on furnished_room() with clutter, seeds 1 to 20, and with
+    /// touching furniture, seeds 1 to 10.
     static constexpr std::int8_t occupied = 2, adjacent = 1, of_other_kind = -1, empty = -3;
 
     /// @param cells   of objects; at least one
     /// @param frame   of the ground in that of the scan
     /// @param seen    by the sensor, floor and walls included
+    /// @param walls   behind which, where they hide the voxels, no objects are searched
     /// @param reach   of objects from their origins, which are within the bounds of the cells [m]
     /// @param height  of objects [m]
     /// Complexity: O(n + v i) for n cells, v voxels and i view points.
     observed_space(std::span<const ground_cell> cells, const rigid_motion& frame,
-                   const visibility& seen, double reach, double height, const auto& run) {
+                   const visibility& seen, std::span<const wall> walls, double reach, double height,
+                   const auto& run) {
         const double margin = reach + 2.0 * edge;
         for (int a = 0; a < 2; ++a) {
             const auto [low, high] =
@@ -58,7 +61,7 @@ class observed_space {
         }
         size_[2] = static_cast<std::size_t>(height / edge) + 3;  // one below, and one above
         fill(cells, run);
-        find_empty(frame, seen, run);
+        find_empty(frame, seen, walls, run);
     }
 
     /// The columns along x or y at which an origin may be, from the first to one after the last.
@@ -120,7 +123,8 @@ class observed_space {
         }
     }
 
-    void find_empty(const rigid_motion& frame, const visibility& seen, const auto& run) {
+    void find_empty(const rigid_motion& frame, const visibility& seen, std::span<const wall> walls,
+                    const auto& run) {
         constexpr double margin = 2.0 * edge;  // [m]; chosen: half a diagonal of 4 cm, and noise
         run(size_[0], [&](std::size_t i) {
             for (std::size_t j = 0; j < size_[1]; ++j) {
@@ -131,7 +135,11 @@ class observed_space {
                         {middle(0, i), middle(1, j), edge * (static_cast<double>(h) - 0.5)});
                     const bool is_empty =
                         std::ranges::any_of(seen.images(), [&](const range_image& image) {
-                            return image.range(image.pixel_of(x)) > image.distance_to(x) + margin;
+                            const double range = image.range(image.pixel_of(x));
+                            return range > image.distance_to(x) + margin ||
+                                   std::ranges::any_of(walls, [&](const wall& w) {
+                                       return w.hides(x, image.viewpoint(), range, edge);
+                                   });
                         });
                     if (is_empty) value_[0][k] = value_[1][k] = empty;
                 }

@@ -27,6 +27,7 @@
 #include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/vertical_symmetry.hpp>
+#include <gnomon/recognition/wall.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -124,11 +125,9 @@ class pose_search {
 /// @return places in the frame of the scan
 /// Complexity: O(n + p (r + 8 m)^2 (h i + o)) for n cells in p pieces of 8 m, objects of reach r
 /// and height h, i view points and o objects.
-[[nodiscard]] inline std::vector<object_place> search_poses(std::span<const ground_cell> cells,
-                                                            const rigid_motion& frame,
-                                                            const visibility& seen,
-                                                            std::span<const surface_model> surfaces,
-                                                            const auto& run) {
+[[nodiscard]] inline std::vector<object_place> search_poses(
+    std::span<const ground_cell> cells, const rigid_motion& frame, const visibility& seen,
+    std::span<const wall> walls, std::span<const surface_model> surfaces, const auto& run) {
     constexpr double piece = 8.0;    // [m]; chosen: one for most rooms
     constexpr double largest = 4.0;  // [m]; chosen: for larger ones memory grows with their cube
     double reach = 0.0, height = 0.0;
@@ -167,7 +166,7 @@ class pose_search {
     }
     std::vector<object_place> places;
     for (const auto& of_piece : pieces) {
-        const observed_space space(of_piece.second, frame, seen, reach, height, run);
+        const observed_space space(of_piece.second, frame, seen, walls, reach, height, run);
         std::vector<std::vector<object_place>> found(searches.size());
         run(searches.size(),
             [&](std::size_t i) { found[i] = searches[i].second(space, searches[i].first); });

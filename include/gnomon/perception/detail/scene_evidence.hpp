@@ -47,6 +47,7 @@
 #include <gnomon/recognition/posterior.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/verification.hpp>
+#include <gnomon/recognition/wall.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -64,7 +65,8 @@ class scene_evidence {
     /// @param divergence  full angle of the beams
     scene_evidence(const voxel_grid::means& cells, visibility seen, imaged_points points,
                    cast_votes votes, const noise_curve& noise, const plane& ground,
-                   angle divergence, const auto& run, const mixed_cells* mixed = nullptr)
+                   std::vector<wall> walls, angle divergence, const auto& run,
+                   const mixed_cells* mixed = nullptr)
         : cells_(cells),
           index_(cells, run),
           surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
@@ -73,6 +75,7 @@ class scene_evidence {
           votes_(std::move(votes)),
           noise_(noise),
           ground_(ground),
+          walls_(std::move(walls)),
           divergence_(divergence),
           mixed_(mixed) {}
 
@@ -94,7 +97,7 @@ class scene_evidence {
                                  ? ground_cell::of_both_kinds
                                  : std::abs(frame.direction_in(surface_[i].normal).z())});
         }
-        return search_poses(cells, frame, seen_, surfaces, run);
+        return search_poses(cells, frame, seen_, walls_, surfaces, run);
     }
 
     /// An object, aligned from a pose and verified.
@@ -214,7 +217,7 @@ class scene_evidence {
                                         .on_ground = true,
                                         .max_distance = much.max_distance,
                                         .max_iterations = much.iterations});
-        const verification_options how{.noise = noise_, .most = much.samples};
+        const verification_options how{.noise = noise_, .walls = walls_, .most = much.samples};
         pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
         const auto normal_of = [&](point_index i) { return surface_[i].normal; };
         if (!verifier.count_samples(normal_of, is_refused)) return std::nullopt;
@@ -235,6 +238,7 @@ class scene_evidence {
     cast_votes votes_;
     noise_curve noise_;
     plane ground_;
+    std::vector<wall> walls_;
     angle divergence_;          // full angle of the beams
     const mixed_cells* mixed_;  // null if beams are narrow
 };

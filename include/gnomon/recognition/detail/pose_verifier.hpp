@@ -25,6 +25,7 @@
 #include <gnomon/recognition/detail/points_in_bounds.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/verification.hpp>
+#include <gnomon/recognition/wall.hpp>
 
 namespace gnomon::recognition::detail {
 
@@ -106,12 +107,41 @@ class pose_verifier {
         const auto is_seen = [&](observation o) { return seen[static_cast<std::size_t>(o)]; };
         std::size_t* count = is_seen(observation::free_space)   ? &counts_.seen_through
                              : is_seen(observation::on_surface) ? &counts_.mismatched
-                             : is_seen(observation::occluded)   ? &counts_.hidden
+                             : is_seen(observation::occluded)   ? hidden_at(at)
                              : is_seen(observation::unobserved) ? &counts_.unobserved
                                                                 : nullptr;
         if (count == nullptr) return;
         ++counts_.facing;
         ++*count;
+    }
+
+    /// The count of a sample that is hidden.
+    [[nodiscard]] std::size_t* hidden_at(const Eigen::Vector3d& at) {
+        const auto is_in = [&](const wall& w) {
+            return std::ranges::any_of(images_, [&](const range_image& image) {
+                const double noise = deviations * options_.noise.along(gnomon::detail::difference(
+                                                      at, image.viewpoint()));
+                return w.hides(at, image.viewpoint(), image.range(image.pixel_of(at)),
+                               options_.tolerance + noise);
+            });
+        };
+        return std::ranges::any_of(options_.walls,
+                                   [&](const wall& w) { return is_in_front_of(w) && is_in(w); })
+                   ? &counts_.in_walls
+                   : &counts_.hidden;
+    }
+
+    /// Whether some of the object's bounds is in front of a wall: one in the next room,
+    /// that is seen through an opening, is not.
+    [[nodiscard]] bool is_in_front_of(const wall& w) const {
+        constexpr double clearly = 0.05;  // [m]; chosen: beyond noise and errors of poses
+        using gnomon::detail::combined;
+        const Eigen::Vector3d normal = pose_.direction_in(w.surface.normal);
+        const Eigen::Vector3d middle = combined(0.5, model_.low(), 0.5, model_.high());
+        const Eigen::Vector3d half = combined(0.5, model_.high(), -0.5, model_.low());
+        return w.surface.signed_distance(pose_.point_out(middle)) +
+                   gnomon::detail::dot(normal.cwiseAbs(), half) >
+               clearly;
     }
 
     /// Whether a point of the scan is on the surface at a sample.
