@@ -59,7 +59,7 @@ struct verification {
     std::size_t supported = 0;     ///< a point of the scan is on the surface there
     std::size_t seen_through = 0;  ///< the sensor observed something clearly farther: free space
     std::size_t mismatched = 0;    ///< something at this range, but not on this surface
-    /// One of the walls is nearer and hides it, but other parts of the object are in front of that.
+    /// One of the walls is nearer, and hides it, although the object is in front of this, too.
     std::size_t in_walls = 0;
     std::size_t hidden = 0;      ///< something else nearer
     std::size_t unobserved = 0;  ///< nothing, or nearer and farther things: an edge

@@ -84,8 +84,6 @@ class pose_verifier {
     [[nodiscard]] const verification& counts() const { return counts_; }
 
   private:
-    static constexpr double deviations = 3.0;  // of the noise: 99.7 % of a normal distribution
-
     /// Counts a sample that faces a view point by the strongest observation from any of these.
     void count_sample(const Eigen::Vector3d& at, const Eigen::Vector3d& normal,
                       const auto& normal_of) {
@@ -96,7 +94,7 @@ class pose_verifier {
             const double range = gnomon::detail::length(way);
             const double facing = -gnomon::detail::dot(way, normal);
             if (!(facing > least_facing * range)) continue;
-            const double noise = deviations * options_.noise.along(way);
+            const double noise = noise_along(way);
             if (is_supported(at, normal, facing / range, range, noise, normal_of)) {
                 ++counts_.facing;
                 ++counts_.supported;
@@ -115,24 +113,21 @@ class pose_verifier {
         ++*count;
     }
 
-    /// The count of a sample that is hidden.
+    /// The count of a sample that is hidden: by a wall in which the object would stand, or not.
     [[nodiscard]] std::size_t* hidden_at(const Eigen::Vector3d& at) {
-        const auto is_in = [&](const wall& w) {
-            return std::ranges::any_of(images_, [&](const range_image& image) {
-                const double noise = deviations * options_.noise.along(gnomon::detail::difference(
-                                                      at, image.viewpoint()));
-                return w.hides(at, image.viewpoint(), image.range(image.pixel_of(at)),
-                               options_.tolerance + noise);
-            });
-        };
-        return std::ranges::any_of(options_.walls,
-                                   [&](const wall& w) { return is_in_front_of(w) && is_in(w); })
-                   ? &counts_.in_walls
-                   : &counts_.hidden;
+        const bool is_in_wall = std::ranges::any_of(options_.walls, [&](const wall& w) {
+            return is_in_front_of(w) && std::ranges::any_of(images_, [&](const range_image& image) {
+                       const Eigen::Vector3d way =
+                           gnomon::detail::difference(at, image.viewpoint());
+                       return w.hides(at, image.viewpoint(), image.range(image.pixel_of(at)),
+                                      options_.tolerance + noise_along(way));
+                   });
+        });
+        return is_in_wall ? &counts_.in_walls : &counts_.hidden;
     }
 
-    /// Whether some of the object's bounds is in front of a wall: one in the next room,
-    /// that is seen through an opening, is not.
+    /// Whether the bounds of the object reach to the front of a wall: those of an object in the
+    /// next room, seen through an opening, do not.
     [[nodiscard]] bool is_in_front_of(const wall& w) const {
         constexpr double clearly = 0.05;  // [m]; chosen: beyond noise and errors of poses
         using gnomon::detail::combined;
@@ -142,6 +137,12 @@ class pose_verifier {
         return w.surface.signed_distance(pose_.point_out(middle)) +
                    gnomon::detail::dot(normal.cwiseAbs(), half) >
                clearly;
+    }
+
+    /// The most that noise is along a ray [m].
+    [[nodiscard]] double noise_along(const Eigen::Vector3d& way) const {
+        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+        return deviations * options_.noise.along(way);
     }
 
     /// Whether a point of the scan is on the surface at a sample.
@@ -195,8 +196,8 @@ class pose_verifier {
             pose_.point_out(combined(0.5, model_.low(), 0.5, model_.high()));
         double noise = 0.0;  // of the view point with most
         for (const range_image& image : images_)
-            noise = std::max(noise, deviations * options_.noise.along(gnomon::detail::difference(
-                                                     middle, image.viewpoint())));
+            noise =
+                std::max(noise, noise_along(gnomon::detail::difference(middle, image.viewpoint())));
         const double reach = model_.spacing() + options_.tolerance + noise;
         const double around = reach + options_.around;
         Eigen::Vector3d low = model_.low() - Eigen::Vector3d::Constant(around);
