@@ -82,6 +82,17 @@ TEST(object_cells, walls_face_the_sensor) {
     }
 }
 
+/// Their cells are removed all the same.
+TEST(object_cells, edges_and_bent_surfaces_are_not_given_as_walls) {
+    wall_with_board low(0.03), bent(0.03);
+    for (auto& p : low.cells.points) p.z() *= 0.1;
+    for (auto& p : bent.cells.points) p.x() += 0.2 * p.y() * p.y();
+    for (const wall_with_board& w : {low, bent}) {
+        EXPECT_TRUE(w.separated(0.005).walls.empty());
+        EXPECT_LT(w.separated(0.005).others.size(), w.labels.size());
+    }
+}
+
 TEST(object_cells, short_surfaces_are_no_walls) {
     EXPECT_FALSE(wall_with_board(0.03, 1.5).is_separated(0.005));
     EXPECT_TRUE(wall_with_board(0.03, 1.5).separated(0.005).walls.empty());

@@ -161,6 +161,25 @@ TEST(object_hypotheses, are_better_as_by_complete_counts) {
     EXPECT_GT(others, 0u);
 }
 
+/// Tops of tables slide along themselves, by more than one step.
+TEST(object_hypotheses, are_improved_from_starts_farther_away) {
+    for (const double x : {-0.16, -0.08, 0.08, 0.16, 0.32}) {
+        const auto found = rec::detail::improved(
+            rec::found_object(),
+            [&](const rec::found_object& best,
+                const rigid_motion& start) -> std::optional<rec::found_object> {
+                const auto off = [&](const rigid_motion& at) {
+                    return std::abs(at.position.x() - x) + at.position.tail<2>().norm();
+                };
+                if (off(start) > 0.17 || off(start) >= off(best.aligned.pose)) return std::nullopt;
+                rec::found_object next;
+                next.aligned.pose = start;
+                return next;
+            });
+        EXPECT_NEAR(found.aligned.pose.position.x(), x, 1e-9);
+    }
+}
+
 /// Objects that came to one pose are one, which has the cells of all of them.
 TEST(object_hypotheses, are_united_at_one_pose) {
     const chair_in_scene scene;

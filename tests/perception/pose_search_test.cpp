@@ -194,6 +194,9 @@ TEST(pose_search, finds_nothing_in_walls) {
     };
     EXPECT_EQ(rank({}), 0u);
     EXPECT_GT(rank({wall}), 0u);
+    rec::wall elsewhere = wall;
+    elsewhere.extent.center.y() = 10.0;
+    EXPECT_EQ(rank({elsewhere}), 0u);
 }
 
 TEST(pose_search, of_no_objects_finds_none) {

@@ -21,7 +21,8 @@ TEST(verification, states_shares) {
     v.explained = 40;
     EXPECT_DOUBLE_EQ(v.support(), 3.0 / 7.0);
     EXPECT_DOUBLE_EQ(v.explanation(), 0.8);
-    EXPECT_DOUBLE_EQ(v.observed(), 0.7);
+    EXPECT_DOUBLE_EQ(v.observed(), 0.6);
+    EXPECT_EQ(v.refuted(), 30u);
 }
 
 }  // namespace

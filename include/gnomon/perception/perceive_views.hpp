@@ -97,7 +97,7 @@ struct perceived_views {
     std::vector<view> views;      ///< the one of most cells first
     segments parts;               ///< of the n points; part::segment refers to these
     segments groups;              ///< of the n points: those of each view, with points of no part
-    std::vector<wall> walls;      ///< none where the gap is infinite
+    std::vector<wall> walls;      ///< that were removed; none where the gap is infinite
 };
 
 namespace detail {

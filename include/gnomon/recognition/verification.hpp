@@ -59,9 +59,9 @@ struct verification {
     std::size_t supported = 0;     ///< a point of the scan is on the surface there
     std::size_t seen_through = 0;  ///< the sensor observed something clearly farther: free space
     std::size_t mismatched = 0;    ///< something at this range, but not on this surface
-    /// One of the walls is nearer, and hides it, although the object is in front of this, too.
+    /// Something nearer, and behind a wall to whose front the object reaches: it would stand in it.
     std::size_t in_walls = 0;
-    std::size_t hidden = 0;      ///< something else nearer
+    std::size_t hidden = 0;      ///< something nearer otherwise
     std::size_t unobserved = 0;  ///< nothing, or nearer and farther things: an edge
 
     std::size_t points = 0;        ///< of the scan, tested: those within the bounds of the object
@@ -69,20 +69,24 @@ struct verification {
     std::size_t near_surface = 0;  ///< of the scan, tested: those on the surface or next to it
     std::size_t on_surface = 0;    ///< of these, on it
 
+    /// Samples at places where no surface of an object can be.
+    [[nodiscard]] std::size_t refuted() const { return seen_through + in_walls; }
     /// The share of supported samples in those that are not hidden or unobserved; 0 without any.
-    [[nodiscard]] double support() const { return share(supported, known()); }
+    [[nodiscard]] double support() const {
+        return share(supported, supported + mismatched + refuted());
+    }
     /// The share of explained points; 0 without any.
     [[nodiscard]] double explanation() const { return share(explained, points); }
     /// The share of the points near the surface that are on it; 0 without any. It is small where
     /// surfaces of the scan go on beyond the object, which is a part of something larger.
     [[nodiscard]] double containment() const { return share(on_surface, near_surface); }
-    /// The share of facing samples that were observed: not hidden or unobserved; 0 without any.
-    [[nodiscard]] double observed() const { return share(known(), facing); }
+    /// The share of facing samples that were observed: not hidden, in walls or unobserved; 0
+    /// without any.
+    [[nodiscard]] double observed() const {
+        return share(supported + seen_through + mismatched, facing);
+    }
 
   private:
-    [[nodiscard]] std::size_t known() const {
-        return supported + seen_through + mismatched + in_walls;
-    }
     [[nodiscard]] static double share(std::size_t part, std::size_t of) {
         return of == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(of);
     }

@@ -49,7 +49,8 @@ namespace gnomon::recognition {
 /// @return counts; see `verification`
 /// @throws std::invalid_argument  if points and normals differ in number, the pose is no rigid
 ///                                motion, or the options are not valid
-/// Complexity: O(s log n + p log m) for s samples and p points, at most `most` of the options each.
+/// Complexity: O(s (log n + w) + p log m) for s samples and p points, at most `most` of the options
+/// each, and w walls, from each view point.
 template <normal_range Surface>
 [[nodiscard]] verification verify_pose(const spatial_index& index, const Surface& surface,
                                        const visibility& seen, const surface_model& model,

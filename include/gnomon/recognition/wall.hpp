@@ -1,38 +1,35 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A wall of a room. No object stands in it: an object that is in front of a wall, and in part
-/// behind it, is not there.
+/// A wall of a room, in which no object stands.
 #pragma once
 
 #include <Eigen/Core>
 
-#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/oriented_box.hpp>
 #include <gnomon/core/plane.hpp>
 
 namespace gnomon::recognition {
 
-/// A part of a plane, with objects on the side of its normal only.
+/// A part of a plane. It may have openings, such as doors; an object that stands in one of them is
+/// not distinguished from one that stands in the wall.
 struct wall {
-    plane surface;        ///< with its normal towards the sensor
-    oriented_box extent;  ///< of the points on it [m]
+    plane surface;        ///< its normal is towards the view points of most points of the wall
+    oriented_box extent;  ///< of the points of the wall [m]
 
-    /// Whether a place is behind the wall, hidden by it.
-    /// @param at         [m]
-    /// @param viewpoint  [m]
-    /// @param range      observed from there towards the place [m]; negative if nothing was
-    /// @param tolerance  of distances from the wall [m]
-    [[nodiscard]] bool hides(const Eigen::Vector3d& at, const Eigen::Vector3d& viewpoint,
-                             double range, double tolerance) const {
-        if (!(surface.signed_distance(at) < -tolerance)) return false;
-        const Eigen::Vector3d way = gnomon::detail::difference(at, viewpoint);
-        const double distance = gnomon::detail::length(way);
-        if (!(range >= 0.0 && range < distance)) return false;
-        const Eigen::Vector3d hit = gnomon::detail::combined(1.0, viewpoint, range / distance, way);
+    /// The place on the plane of the wall that is nearest to x [m].
+    [[nodiscard]] Eigen::Vector3d foot_of(const Eigen::Vector3d& x) const {
+        return gnomon::detail::combined(1.0, x, -surface.signed_distance(x), surface.normal);
+    }
+
+    /// Whether x [m] is behind the wall, as seen along its normal.
+    /// @param tolerance  x is at least this far behind, and its foot at most this far outside of
+    ///                   the extent [m]
+    [[nodiscard]] bool is_before(const Eigen::Vector3d& x, double tolerance) const {
+        if (!(surface.signed_distance(x) < -tolerance)) return false;
         oriented_box around = extent;
         around.lengths += Eigen::Vector3d::Constant(2.0 * tolerance);
-        return std::abs(surface.signed_distance(hit)) <= tolerance && around.contains(hit);
+        return around.contains(foot_of(x));
     }
 };
 

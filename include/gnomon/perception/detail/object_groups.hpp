@@ -50,16 +50,15 @@ template <class R, execution X>
     return seen;
 }
 
-/// The groups of cells that may be objects, and the walls.
-struct groups_and_walls {
+struct separated_groups {
     segments groups;
     std::vector<wall> walls;
 };
 
-/// The groups of cells: all in one, or those of at most a gap from each other that are not in
-/// walls. Takes over the noise that was measured on all.
+/// The groups of cells that may be objects: all in one, or those of at most a gap from each other
+/// that are not in walls; and these walls. Takes over the noise that was measured on all.
 template <execution X>
-[[nodiscard]] groups_and_walls object_groups(const voxel_grid::means& cells, auto& options,
+[[nodiscard]] separated_groups object_groups(const voxel_grid::means& cells, auto& options,
                                              const Eigen::Vector3d& up, const X& run) {
     if (!(options.gap < infinite_gap))
         return {segments(std::vector<std::int32_t>(cells.size(), 0)), {}};

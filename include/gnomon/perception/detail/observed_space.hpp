@@ -42,10 +42,10 @@ class observed_space {
     /// @param cells   of objects; at least one
     /// @param frame   of the ground in that of the scan
     /// @param seen    by the sensor, floor and walls included
-    /// @param walls   behind which, where they hide the voxels, no objects are searched
+    /// @param walls   in which no object stands
     /// @param reach   of objects from their origins, which are within the bounds of the cells [m]
     /// @param height  of objects [m]
-    /// Complexity: O(n + v i) for n cells, v voxels and i view points.
+    /// Complexity: O(n + v i w) for n cells, v voxels, i view points and w walls.
     observed_space(std::span<const ground_cell> cells, const rigid_motion& frame,
                    const visibility& seen, std::span<const wall> walls, double reach, double height,
                    const auto& run) {
@@ -137,13 +137,23 @@ class observed_space {
                         std::ranges::any_of(seen.images(), [&](const range_image& image) {
                             const double range = image.range(image.pixel_of(x));
                             return range > image.distance_to(x) + margin ||
-                                   std::ranges::any_of(walls, [&](const wall& w) {
-                                       return w.hides(x, image.viewpoint(), range, edge);
-                                   });
+                                   is_in_wall(x, walls, image);
                         });
                     if (is_empty) value_[0][k] = value_[1][k] = empty;
                 }
             }
+        });
+    }
+
+    /// Whether a place is little behind a wall that is seen in front of it. (Farther behind it,
+    /// there may be objects of the next room.)
+    [[nodiscard]] static bool is_in_wall(const Eigen::Vector3d& x, std::span<const wall> walls,
+                                         const range_image& image) {
+        constexpr double deepest = 0.3;  // [m]; chosen: half the depth of a table
+        return std::ranges::any_of(walls, [&](const wall& w) {
+            if (!w.is_before(x, edge) || w.surface.signed_distance(x) < -deepest) return false;
+            const Eigen::Vector3d foot = w.foot_of(x);
+            return std::abs(image.range(image.pixel_of(foot)) - image.distance_to(foot)) < edge;
         });
     }
 

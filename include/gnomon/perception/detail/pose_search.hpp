@@ -124,7 +124,7 @@ class pose_search {
 /// @param frame  of the ground in that of the scan
 /// @return places in the frame of the scan
 /// Complexity: O(n + p (r + 8 m)^2 (h i + o)) for n cells in p pieces of 8 m, objects of reach r
-/// and height h, i view points and o objects.
+/// and height h, i view points (times walls, if there are any) and o objects.
 [[nodiscard]] inline std::vector<object_place> search_poses(
     std::span<const ground_cell> cells, const rigid_motion& frame, const visibility& seen,
     std::span<const wall> walls, std::span<const surface_model> surfaces, const auto& run) {

@@ -48,6 +48,8 @@ class pose_verifier {
           least_cosine_(cos(options.max_angle)) {
         options.require_valid();
         gnomon::detail::require(is_rigid(pose), "verify_pose: the pose is no rigid motion");
+        for (const wall& w : options.walls)
+            if (is_in_front_of(w)) walls_.push_back(&w);
     }
 
     /// @param normal_of  (i): the normal of point i of the scan; zero if it is missing
@@ -89,6 +91,7 @@ class pose_verifier {
                       const auto& normal_of) {
         constexpr double least_facing = 0.1;  // chosen: cosine; rays at 84 degrees are unreliable
         std::array<bool, 5> seen{};
+        bool in_wall = false;
         for (const range_image& image : images_) {
             const Eigen::Vector3d way = gnomon::detail::difference(at, image.viewpoint());
             const double range = gnomon::detail::length(way);
@@ -100,12 +103,15 @@ class pose_verifier {
                 ++counts_.supported;
                 return;
             }
-            seen[static_cast<std::size_t>(observed(at, range, noise, image))] = true;
+            const observation here = observed(at, range, noise, image);
+            seen[static_cast<std::size_t>(here)] = true;
+            in_wall = in_wall || (here == observation::occluded && is_in_wall(at, image));
         }
         const auto is_seen = [&](observation o) { return seen[static_cast<std::size_t>(o)]; };
         std::size_t* count = is_seen(observation::free_space)   ? &counts_.seen_through
                              : is_seen(observation::on_surface) ? &counts_.mismatched
-                             : is_seen(observation::occluded)   ? hidden_at(at)
+                             : in_wall                          ? &counts_.in_walls
+                             : is_seen(observation::occluded)   ? &counts_.hidden
                              : is_seen(observation::unobserved) ? &counts_.unobserved
                                                                 : nullptr;
         if (count == nullptr) return;
@@ -113,23 +119,23 @@ class pose_verifier {
         ++*count;
     }
 
-    /// The count of a sample that is hidden: by a wall in which the object would stand, or not.
-    [[nodiscard]] std::size_t* hidden_at(const Eigen::Vector3d& at) {
-        const bool is_in_wall = std::ranges::any_of(options_.walls, [&](const wall& w) {
-            return is_in_front_of(w) && std::ranges::any_of(images_, [&](const range_image& image) {
-                       const Eigen::Vector3d way =
-                           gnomon::detail::difference(at, image.viewpoint());
-                       return w.hides(at, image.viewpoint(), image.range(image.pixel_of(at)),
-                                      options_.tolerance + noise_along(way));
-                   });
+    /// Whether a hidden sample is behind a wall: one view point sees the wall in front of it, or
+    /// something in front of the wall.
+    [[nodiscard]] bool is_in_wall(const Eigen::Vector3d& at, const range_image& image) const {
+        return std::ranges::any_of(walls_, [&](const wall* w) {
+            const Eigen::Vector3d foot = w->foot_of(at);
+            const Eigen::Vector3d way = gnomon::detail::difference(foot, image.viewpoint());
+            const double noise = noise_along(way);
+            if (!w->is_before(at, options_.tolerance + noise)) return false;
+            const observation there = observed(foot, gnomon::detail::length(way), noise, image);
+            return there == observation::on_surface || there == observation::occluded;
         });
-        return is_in_wall ? &counts_.in_walls : &counts_.hidden;
     }
 
     /// Whether the bounds of the object reach to the front of a wall: those of an object in the
     /// next room, seen through an opening, do not.
     [[nodiscard]] bool is_in_front_of(const wall& w) const {
-        constexpr double clearly = 0.05;  // [m]; chosen: beyond noise and errors of poses
+        constexpr double clearly = 0.05;  // [m]; chosen: poses of alignments are less wrong
         using gnomon::detail::combined;
         const Eigen::Vector3d normal = pose_.direction_in(w.surface.normal);
         const Eigen::Vector3d middle = combined(0.5, model_.low(), 0.5, model_.high());
@@ -139,7 +145,7 @@ class pose_verifier {
                clearly;
     }
 
-    /// The most that noise is along a ray [m].
+    /// Three deviations of the noise along a ray [m].
     [[nodiscard]] double noise_along(const Eigen::Vector3d& way) const {
         constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
         return deviations * options_.noise.along(way);
@@ -233,6 +239,7 @@ class pose_verifier {
     const rigid_motion& pose_;
     const verification_options& options_;
     double least_cosine_;
+    std::vector<const wall*> walls_;  // those in which the object may stand
     verification counts_;
     std::vector<neighbor> found_;
     std::vector<Eigen::Vector3d> inside_;
