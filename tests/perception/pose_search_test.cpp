@@ -163,40 +163,32 @@ TEST(pose_search, finds_no_mats) {
                     .empty());
 }
 
-/// Without the wall, the hidden part of a desk may as well be behind it.
+/// Little behind a wall is nothing, but farther behind it may be another room.
 TEST(pose_search, finds_nothing_in_walls) {
-    constexpr double at_wall = 3.0;  // [m]
-    const auto all = sim::furniture_models();
-    const auto desk = std::ranges::find(all, "desk", &sim::furniture_model::name);
-    const std::vector surfaces{surface_of(*desk)};
-    std::vector<Eigen::Vector3d> points;
-    for (double y = -3.0; y <= 3.0; y += 0.01)
-        for (double z = 0.0; z <= 2.4; z += 0.01) points.emplace_back(at_wall, y, z);
+    constexpr double at_wall = 3.0, edge = rec::detail::observed_space::edge;  // [m]
     gnomon::scan scan;
-    scan.points = points;
+    for (double y = -3.0; y <= 3.0; y += 0.01)
+        for (double z = 0.0; z <= 2.4; z += 0.01) scan.points.emplace_back(at_wall, y, z);
     scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 1.2);
-    const gnomon::visibility seen(scan, {.noise = gnomon::constant_noise{0.005}});
-    // What would be seen of a desk of which half is in the wall.
-    const rec::surface_model& model = surfaces.front();
-    const double x = at_wall - 0.5 * (model.low().x() + model.high().x());
-    std::vector<rec::detail::ground_cell> cells;
-    for (std::size_t i = 0; i < model.points().size(); ++i) {
-        const Eigen::Vector3d p = model.points()[i] + Eigen::Vector3d(x, 0.0, 0.0);
-        if (p.x() < at_wall && p.z() > 0.05)
-            cells.push_back({p, std::abs(model.normals()[i].normal.z())});
-    }
-    const rec::wall wall{{{-1.0, 0.0, 0.0}, -at_wall},
-                         {.center = {at_wall, 0.0, 1.2}, .lengths = {0.0, 6.0, 2.4}}};
-    const auto rank = [&](const std::vector<rec::wall>& walls) {
-        const auto places = rec::detail::search_poses(cells, rigid_motion{}, seen, walls, surfaces,
-                                                      gnomon::sequential{});
-        return rank_of(places, 0, rigid_motion::on_ground(x, 0.0, degrees(0)), model);
+    const gnomon::visibility seen(scan,
+                                  {.pixel = degrees(0.3), .noise = gnomon::constant_noise{0.005}});
+    const std::vector<rec::detail::ground_cell> cells{{{2.8, 0.0, 0.7}}, {{2.8, 1.0, 0.7}}};
+    const rec::wall half{{{-1.0, 0.0, 0.0}, -at_wall},
+                         {.center = {at_wall, -1.5, 1.2}, .lengths = {0.0, 3.0, 2.4}}};
+    const auto value = [&](const std::vector<rec::wall>& walls, double x, double y) {
+        const rec::detail::observed_space space(cells, rigid_motion{}, seen, walls, 1.5, 1.0,
+                                                gnomon::sequential{});
+        const auto column = [&](std::size_t axis, double at) {
+            return static_cast<std::size_t>(std::lround((at - space.middle(axis, 0)) / edge));
+        };
+        return space.column(false, column(0, x), column(1, y))[14];  // 0.7 m above ground
     };
-    EXPECT_EQ(rank({}), 0u);
-    EXPECT_GT(rank({wall}), 0u);
-    rec::wall elsewhere = wall;
-    elsewhere.extent.center.y() = 10.0;
-    EXPECT_EQ(rank({elsewhere}), 0u);
+    constexpr auto empty = rec::detail::observed_space::empty;
+    EXPECT_EQ(value({half}, 2.6, -0.5), empty);  // seen through
+    EXPECT_EQ(value({half}, 3.15, -0.5), empty);
+    EXPECT_EQ(value({}, 3.15, -0.5), 0);
+    EXPECT_EQ(value({half}, 3.15, 0.5), 0);
+    EXPECT_EQ(value({half}, 3.5, -0.5), 0);
 }
 
 TEST(pose_search, of_no_objects_finds_none) {

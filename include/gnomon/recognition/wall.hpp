@@ -11,8 +11,8 @@
 
 namespace gnomon::recognition {
 
-/// A part of a plane. It may have openings, such as doors; an object that stands in one of them is
-/// not distinguished from one that stands in the wall.
+/// A part of a plane. It may have openings; an object that stands in one of them is not
+/// distinguished from one that stands in the wall.
 struct wall {
     plane surface;        ///< its normal is towards the view points of most points of the wall
     oriented_box extent;  ///< of the points of the wall [m]
