@@ -111,7 +111,7 @@ TEST(verify_pose, knows_hidden_places) {
     EXPECT_EQ(v.explanation(), 0.0);
 }
 
-/// A wall at x = 3 from y = -2 to y = `end`, seen from y = 0, and a table that may be there. Rows
+/// A wall at x = 3 from y = -2 to y = `end`, seen from y = 0, and a table at some place. Rows
 /// of points are `row` times as far apart as columns.
 struct table_at_wall {
     static constexpr double at_wall = 3.0;  // [m]
