@@ -156,7 +156,9 @@ TEST(verify_pose, knows_what_stands_next_to_walls) {
     const auto next_room = table_at_wall().verify(3.0);
     EXPECT_GT(next_room.hidden, next_room.facing / 2);
     EXPECT_EQ(next_room.in_walls, 0u);
-    const table_at_wall corner(-0.5);
+    table_at_wall corner(-0.5);
+    for (double y = -2.0; y <= 2.0; y += 0.01)  // a board in front hides where the wall is not
+        for (double z = 0.0; z <= 1.0; z += 0.01) corner.scan.points.emplace_back(1.5, y, z);
     EXPECT_EQ(corner.verify(0.3, 0.3).in_walls, 0u);
     EXPECT_GT(corner.verify(0.3, -1.0).in_walls, 0u);
 }

@@ -28,7 +28,7 @@ struct verification_options {
     /// Points up to this much farther from the surface than those on it are next to it [m]; chosen
     /// on simulated rooms, seeds 1 to 60.
     double around = 0.04;
-    std::vector<wall> walls{};  ///< in which objects do not stand
+    std::vector<wall> walls{};  ///< in which no object stands, such as those of perceived_views
     std::size_t most = 1000;  ///< samples, and points, that are tested; of more, evenly chosen ones
 
     /// @throws std::invalid_argument  unless the tolerance is positive and finite, the angle from 0
