@@ -501,7 +501,7 @@ def poses(tables):
           "on the others, and covariances include a shift of edges by 3.5 % of the width of a beam, for mixed points that were not "
           "detected, which was chosen for a mean of 1 on other rooms (1.0 of 120, and 2.6 with 2 %). Errors have heavier tails than a "
           "normal distribution, so that the covariances of most objects are too large, and those of a few too small: the mean is that "
-          "of a few poses, and 1.07 in other rooms (seeds 541 to 580, 128 objects)")
+          "of a few poses, and 1.05 in other rooms (seeds 541 to 580, 126 objects)")
 def covariances(tables):
     row = method_in(tables, "cluttered", VOTING)
     mean = row.get("NEES / dof")
