@@ -151,7 +151,8 @@ TEST(verify_pose, knows_what_stands_in_walls) {
     }
 }
 
-/// Nor does an object in the next room, or one that crosses the plane of a wall where it has ended.
+/// An object in the next room does not stand in the wall, nor does one that crosses the plane of a
+/// wall where this has ended.
 TEST(verify_pose, knows_what_stands_next_to_walls) {
     const auto next_room = table_at_wall().verify(3.0);
     EXPECT_GT(next_room.hidden, next_room.facing / 2);

@@ -56,8 +56,8 @@ struct separated_walls {
 
 /// Separates walls from other points. Surfaces that are longer than `max_length` [m] and not level,
 /// as two tops of one height that touch are, have the planes of walls. Points of such a surface, or
-/// of no surface, are of a wall within three deviations of the noise, or 1 cm, of its
-/// plane: the back of a chair at a wall may be in one surface with it, but is not in its plane.
+/// of no surface, are of a wall within three deviations of the noise, or 1 cm, of its plane: the
+/// back of a chair at a wall may be in one surface with it, but is not in its plane.
 /// @param surface  of the n points, a `normal_range`
 /// @param noise    of the points, along their rays [m]
 /// Complexity: O(n) for each wall.
@@ -68,7 +68,7 @@ struct separated_walls {
     constexpr double level = 0.9;  // chosen: cosine; within 26 degrees
     // Edges and curved walls, whose points are removed likewise, are not given as walls.
     constexpr double broad = 0.5;  // [m]; chosen: parts of walls between furniture
-    constexpr double thick = 0.2;  // [m]; chosen: boards and backs of chairs on a wall are not
+    constexpr double thick = 0.2;  // [m]; chosen: more than a board on a wall
     using gnomon::detail::certain_deviations, gnomon::detail::flatness;
     constexpr double narrowest = certain_deviations * flatness;  // [m]: as that of floors
     separated_walls result;

@@ -50,6 +50,7 @@ template <class R, execution X>
     return seen;
 }
 
+/// The groups of some cells, and the walls that were not grouped.
 struct separated_groups {
     segments groups;
     std::vector<wall> walls;
