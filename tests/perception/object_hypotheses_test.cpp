@@ -86,6 +86,14 @@ class chair_in_scene {
     [[nodiscard]] const rec::detail::scene_evidence& scene() const { return *scene_; }
     [[nodiscard]] const std::vector<rec::surface_model>& surfaces() const { return surfaces_; }
 
+    /// The hypotheses at some places.
+    /// @param least  the probability from which on rough alignments are improved
+    [[nodiscard]] std::vector<rec::found_object> hypotheses_at(
+        const std::vector<rec::object_place>& places, const auto& run,
+        double least = rec::detail::scene_evidence::worth) const {
+        return rec::detail::hypotheses_at(places, scene(), surfaces(), least, run);
+    }
+
     chair_in_scene(const chair_in_scene&) = delete;  // it refers to itself
     chair_in_scene& operator=(const chair_in_scene&) = delete;
 
@@ -109,11 +117,22 @@ TEST(object_hypotheses, are_one_at_each_pose) {
         for (const double y : {-0.03, 0.0, 0.03})
             places.push_back(
                 {0, where_chair_is * rigid_motion::on_ground(x, y, degrees(100.0 * x)), 0.0});
-    const auto found =
-        rec::detail::hypotheses_at(places, chair.scene(), chair.surfaces(), gnomon::threads{2});
+    const auto found = chair.hypotheses_at(places, gnomon::threads{2});
     ASSERT_EQ(found.size(), 1u);
     EXPECT_LT(distance_off(found[0]), 0.01);
     EXPECT_GT(found[0].evidence.samples, 500u);  // verified carefully
+}
+
+/// A rough alignment from a place that is far off is hardly probable: only with a lower limit is it
+/// improved, and then found where the chair is.
+TEST(object_hypotheses, are_improved_from_a_least_probability_on) {
+    const chair_in_scene chair;
+    const std::vector<rec::object_place> place{
+        {0, where_chair_is * rigid_motion::on_ground(0.12, -0.16, degrees(0.0)), 0.0}};
+    EXPECT_TRUE(chair.hypotheses_at(place, gnomon::sequential{}).empty());
+    const auto found = chair.hypotheses_at(place, gnomon::sequential{}, 0.002);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LT(distance_off(found[0]), 0.01);
 }
 
 /// A neighbor that touches an object does not pull it away from where it is, as it does if surfaces
@@ -161,23 +180,33 @@ TEST(object_hypotheses, are_better_as_by_complete_counts) {
     EXPECT_GT(others, 0u);
 }
 
+/// Where an object ends along x, improved from the origin, if it fits best at x [m].
+/// @param probability  of the object at all poses
+double improved_to(double x, double probability) {
+    rec::found_object at_origin;
+    at_origin.probability = probability;
+    const auto off = [x](const rigid_motion& at) {
+        return std::abs(at.position.x() - x) + at.position.tail<2>().norm();
+    };
+    const auto better_from = [&](const rec::found_object& best,
+                                 const rigid_motion& start) -> std::optional<rec::found_object> {
+        if (off(start) > 0.17 || off(start) >= off(best.aligned.pose)) return std::nullopt;
+        rec::found_object next = best;
+        next.aligned.pose = start;
+        return next;
+    };
+    return rec::detail::improved(at_origin, better_from).aligned.pose.position.x();
+}
+
 /// Tops of tables slide along themselves, by more than one step.
 TEST(object_hypotheses, are_improved_from_starts_farther_away) {
-    for (const double x : {-0.16, -0.08, 0.08, 0.16, 0.32}) {
-        const auto found = rec::detail::improved(
-            rec::found_object(),
-            [&](const rec::found_object& best,
-                const rigid_motion& start) -> std::optional<rec::found_object> {
-                const auto off = [&](const rigid_motion& at) {
-                    return std::abs(at.position.x() - x) + at.position.tail<2>().norm();
-                };
-                if (off(start) > 0.17 || off(start) >= off(best.aligned.pose)) return std::nullopt;
-                rec::found_object next;
-                next.aligned.pose = start;
-                return next;
-            });
-        EXPECT_NEAR(found.aligned.pose.position.x(), x, 1e-9);
-    }
+    for (const double x : {-0.16, -0.08, 0.08, 0.16, 0.32})
+        EXPECT_NEAR(improved_to(x, 0.5), x, 1e-9);
+}
+
+/// A hypothesis that is not worth it after one round of improvements gets no further one.
+TEST(object_hypotheses, are_given_up_if_the_first_round_does_not_help) {
+    EXPECT_NEAR(improved_to(0.32, 0.005), 0.16, 1e-9);
 }
 
 /// Objects that came to one pose are one, which has the cells of all of them.
@@ -204,9 +233,7 @@ TEST(object_hypotheses, are_none_where_nothing_is) {
     const chair_in_scene chair;
     const std::vector<rec::object_place> places{
         {0, rigid_motion::on_ground(9.0, 9.0, degrees(0.0)), 0.0}};
-    EXPECT_TRUE(
-        rec::detail::hypotheses_at(places, chair.scene(), chair.surfaces(), gnomon::sequential{})
-            .empty());
+    EXPECT_TRUE(chair.hypotheses_at(places, gnomon::sequential{}).empty());
 }
 
 /// The surface of an object is found in the cells that are left, and in none of those that are not.

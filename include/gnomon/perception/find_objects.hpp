@@ -127,7 +127,7 @@ class object_finder {
     /// @return none if no ground was found
     /// @throws std::invalid_argument  for options that are not valid, or before fit()
     /// Complexity: O(n log n), and alignments of 64 cells with O(log n) for each of 150 samples
-    /// and each view point, at the places of most votes of each object and 10 by its surface in 64
+    /// and each view point, at the places of most votes of each object and 20 by its surface in 64
     /// m^2; and a drawing of the silhouette of each of these that is worth it.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -43,7 +43,7 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
 
 /// A hypothesis, or the same object aligned from a start next to it, and again from one next to
 /// that, where it fits clearly better: an alignment may end where a slat of the model is on the
-/// next slat of the chair.
+/// next slat of the chair. One that is not worth it after a round is not improved further.
 /// @param better_from  (best, start): the same object, aligned from a start, if it fits better
 [[nodiscard]] inline found_object improved(found_object best, const auto& better_from) {
     constexpr int most = 3;        // rounds; chosen: few change in the third
@@ -68,7 +68,7 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
             best = *std::move(next);
             is_better = true;
         }
-        if (!is_better) break;
+        if (!is_better || best.probability < scene_evidence::worth) break;
     }
     return best;
 }
@@ -113,14 +113,15 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
     return scene.aligned(place.object, place.pose, models[place.object], rough_effort);
 }
 
-/// The hypotheses that are worth it, the most probable one first, and of those that are one object
-/// at one pose only that.
+/// The hypotheses of a probability of `least` or more, the most probable one first, and of those
+/// that are one object at one pose only that.
 [[nodiscard]] inline std::vector<found_object> distinct(std::vector<found_object> hypotheses,
-                                                        std::span<const surface_model> models) {
+                                                        std::span<const surface_model> models,
+                                                        double least) {
     std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
     std::vector<found_object> kept;
     for (found_object& h : hypotheses) {
-        if (h.probability < scene_evidence::worth) break;
+        if (h.probability < least) break;
         if (std::ranges::none_of(
                 kept, [&](const found_object& k) { return is_same(h, k, models[h.object]); }))
             kept.push_back(std::move(h));
@@ -130,17 +131,20 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
 
 /// Hypotheses that are worth it: aligned roughly from all places, then improved, then aligned
 /// carefully. Those that came to one pose are reduced to one before each of the last two steps.
+/// @param least  the probability below which one that was aligned roughly is not improved
 [[nodiscard]] inline std::vector<found_object> hypotheses_at(std::span<const object_place> places,
                                                              const scene_evidence& scene,
                                                              std::span<const surface_model> models,
-                                                             const auto& run) {
+                                                             double least, const auto& run) {
     std::vector<found_object> some(places.size());
     run(places.size(), [&](std::size_t i) { some[i] = aligned_roughly(scene, places[i], models); });
-    for (const auto next : {&improved_roughly, &aligned_carefully}) {
-        some = distinct(std::move(some), models);
+    const auto take = [&](const auto& step, double enough) {
+        some = distinct(std::move(some), models, enough);
         run(some.size(),
-            [&](std::size_t i) { some[i] = next(scene, some[i], models[some[i].object]); });
-    }
+            [&](std::size_t i) { some[i] = step(scene, some[i], models[some[i].object]); });
+    };
+    take(improved_roughly, least);
+    take(aligned_carefully, scene_evidence::worth);
     return some;
 }
 
