@@ -37,7 +37,8 @@ FOLDERS = ["gnomon/segmentation", "gnomon/occlusion", "gnomon/perception",
            "gnomon/normals/detail/wide_noise.hpp"]
 # The views of objects have surfaces of their own, with more that is chosen: on simulated furniture. So have
 # hypotheses about objects.
-OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/object_cells.hpp",
+OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/neighbors_by_density.hpp",
+         "gnomon/perception/detail/separated_walls.hpp",
          "gnomon/perception/detail/cells_of_object.hpp", "gnomon/perception/detail/alignment_effort.hpp",
          "gnomon/perception/find_objects.hpp", "gnomon/perception/detail/object_hypotheses.hpp",
          "gnomon/perception/detail/object_competition.hpp", "gnomon/perception/detail/object_probability.hpp",

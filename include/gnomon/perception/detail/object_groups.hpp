@@ -23,8 +23,9 @@
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
-#include <gnomon/perception/detail/object_cells.hpp>
+#include <gnomon/perception/detail/neighbors_by_density.hpp>
 #include <gnomon/perception/detail/perception_run.hpp>
+#include <gnomon/perception/detail/separated_walls.hpp>
 #include <gnomon/perception/perception.hpp>
 #include <gnomon/perception/perception_result.hpp>
 #include <gnomon/recognition/view.hpp>

@@ -12,7 +12,7 @@
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/normals/plane_fit.hpp>
 #include <gnomon/normals/surfel.hpp>
-#include <gnomon/perception/detail/object_cells.hpp>
+#include <gnomon/perception/detail/separated_walls.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace rec = gnomon::recognition;
@@ -61,7 +61,7 @@ struct wall_with_board {
     }
 };
 
-TEST(object_cells, what_is_in_one_surface_with_a_wall_is_left_unless_in_its_plane) {
+TEST(separated_walls, what_is_in_one_surface_with_a_wall_is_left_unless_in_its_plane) {
     EXPECT_TRUE(wall_with_board(0.03).is_separated(0.005));
     // Nearer than three deviations of the noise it cannot be distinguished from the wall.
     EXPECT_FALSE(wall_with_board(0.03).is_separated(0.015));
@@ -70,7 +70,7 @@ TEST(object_cells, what_is_in_one_surface_with_a_wall_is_left_unless_in_its_plan
     EXPECT_TRUE(wall_with_board(0.02).is_separated(1e-6));
 }
 
-TEST(object_cells, walls_face_the_sensor) {
+TEST(separated_walls, walls_face_the_sensor) {
     for (const double side : {3.0, -3.0}) {
         wall_with_board seen(0.03);
         seen.cells.viewpoints = Eigen::Vector3d(side, 0.0, 1.0);
@@ -83,7 +83,7 @@ TEST(object_cells, walls_face_the_sensor) {
 }
 
 /// Their cells are removed all the same.
-TEST(object_cells, edges_and_bent_surfaces_are_not_given_as_walls) {
+TEST(separated_walls, edges_and_bent_surfaces_are_not_given_as_walls) {
     wall_with_board low(0.03), bent(0.03);
     for (auto& p : low.cells.points) p.z() *= 0.1;
     for (auto& p : bent.cells.points) p.x() += 0.2 * p.y() * p.y();
@@ -93,7 +93,7 @@ TEST(object_cells, edges_and_bent_surfaces_are_not_given_as_walls) {
     }
 }
 
-TEST(object_cells, short_surfaces_are_no_walls) {
+TEST(separated_walls, short_surfaces_are_no_walls) {
     EXPECT_FALSE(wall_with_board(0.03, 1.5).is_separated(0.005));
     EXPECT_TRUE(wall_with_board(0.03, 1.5).separated(0.005).walls.empty());
 }
