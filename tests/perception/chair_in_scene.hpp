@@ -103,7 +103,7 @@ class chair_in_scene {
     std::optional<rec::detail::scene_evidence> scene_;
 };
 
-/// Of an object from the place of the chair [m].
+/// The distance of an object from the place of the chair [m].
 [[nodiscard]] inline double distance_off(const rec::found_object& o) {
     return (o.aligned.pose.position - where_chair_is.position).norm();
 }

@@ -12,8 +12,8 @@
 
 namespace gnomon::recognition::detail {
 
-/// The number of neighbors within `reach` at the median density of points, but at least 10 and at
-/// most k.
+/// The number of neighbors within `reach` [m] at the median density of points on their surface, by
+/// the distance of the fourth nearest, but at least 10 and at most k. O(log n) for n points.
 [[nodiscard]] inline std::size_t neighbors_by_density(const spatial_index& points, std::size_t k,
                                                       double reach) {
     constexpr std::size_t nearby = 4, least = 10;  // chosen on furniture_models(), seed 7

@@ -118,8 +118,8 @@ inline void renumber(std::vector<std::int32_t>& of_cell, std::span<const std::in
     (void)winners(hypotheses, clear);
     const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
     // Without votes, and from places that are farther off, true objects are less probable at first.
-    // Chosen on touching rooms of seeds 101 to 160 and 541 to 590, of .001 to .01.
-    constexpr double least_rough = 0.002;
+    // Of .001 to .01, on touching rooms of seeds 101 to 160 and 541 to 590:
+    constexpr double least_rough = 0.002;  // probability; chosen
     auto others = hypotheses_at(scene.searched_places(surfaces, is_left, run), scene, surfaces,
                                 least_rough, run);
     std::ranges::move(others, std::back_inserter(hypotheses));
