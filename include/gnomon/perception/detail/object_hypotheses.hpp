@@ -49,7 +49,7 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
     constexpr int most = 3;        // rounds; chosen: few change in the third
     constexpr double step = 0.08;  // [m]; chosen, and tried on rooms of seeds 1 to 14
     // Tops of tables slide along themselves, in touching rooms of seeds 101 to 160 and 541 to 590:
-    constexpr double wide = 0.16;  // [m]; chosen
+    constexpr double wide = 0.16;          // [m]; chosen
     constexpr angle turn = degrees(12.0);  // chosen: as wide at 40 cm from the middle
     constexpr angle none = degrees(0.0);
     for (int round = 0; round < most; ++round) {
