@@ -32,7 +32,7 @@ double volume_by_cgal(const clouds::cloud& points) {
     std::array<kernel::Point_3, 8> corners;
     CGAL::oriented_bounding_box(copies, corners, CGAL::parameters::use_convex_hull(true));
     double volume = 1.0;  // corners 1, 3 and 5 are adjacent to corner 0
-    for (const std::size_t i : {1, 3, 5})
+    for (const std::size_t i : {1u, 3u, 5u})
         volume *= std::sqrt(CGAL::squared_distance(corners[0], corners[i]));
     return volume;
 }

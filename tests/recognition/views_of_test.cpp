@@ -88,7 +88,7 @@ TEST(views_of, are_connected_components_of_segments) {
         const auto c = scattered_boards(14, 2.0, seed);
         for (const double gap : {0.03, 0.10, 0.30}) {
             const grouping_oracle oracle(c, gap);
-            for (const std::size_t least : {1, 2, 3})
+            for (const std::size_t least : {1u, 2u, 3u})
                 EXPECT_EQ(segments_of_views(views_in(c, {.gap = gap, .min_parts = least})),
                           oracle.groups(least))
                     << seed << " " << gap;

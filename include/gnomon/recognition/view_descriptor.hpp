@@ -171,4 +171,7 @@ struct view_descriptor {
     }
 };
 
+template <class Features, class Relations>
+view_descriptor(Features, Relations, bool) -> view_descriptor<Features, Relations>;  // for clang 16
+
 }  // namespace gnomon::recognition
