@@ -17,7 +17,7 @@
 ///         use(finder.names()[o.object], o.aligned.pose, o.probability);
 ///
 /// Hypotheses from elsewhere are aligned and verified: `finder.verify(scan, places)`. In no
-/// umbrella: include it by name.
+/// umbrella: include it by name. It needs Boost.Hana.
 #pragma once
 
 #include <algorithm>
@@ -155,12 +155,12 @@ class object_finder {
     /// Verifies hypotheses of others, such as a detector in images: each is aligned with the scan
     /// from its place, and is as probable as what the scan shows of it. They do not compete.
     /// @param points   as above
-    /// @param places   m objects, each at most 10 cm and 15 degrees from where it is
+    /// @param places   m objects, each at most 10 cm and 15 degrees of heading from where it is on
+    ///                 the ground; heights and tilts are not corrected, and votes not read
     /// @param options  as above; the least probability is not used
     /// @return m hypotheses in the order of the places, of probability 0 with too few points or
     ///         without ground. Poses of hypotheses of less than 0.01 are not refined
-    /// @throws std::invalid_argument  as above, or if there is no such object or a pose is no rigid
-    ///                                motion
+    /// @throws std::invalid_argument  as above; if there is no such object, or a pose is not rigid
     /// Complexity: O(n log n), and for each place some alignments as above.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

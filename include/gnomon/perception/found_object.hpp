@@ -66,9 +66,9 @@ struct silhouette_match {
 /// An object that was found.
 struct found_object {
     std::size_t object = 0;  ///< its number
-    /// The pose of its frame in that of the scan, with covariance. Outcome, determined directions
-    /// and inliers are those of its faces; where these leave it free to slide, pose and covariance
-    /// come from its silhouette.
+    /// The pose of its frame in that of the scan, where center and covariance are, too. Outcome,
+    /// determined directions and inliers are those of its faces; where these leave it free to
+    /// slide, pose and covariance come from its silhouette.
     alignment aligned;
     /// What the scan shows of it, before its pose was refined by whole beams and silhouette.
     verification evidence;
