@@ -171,7 +171,8 @@ struct view_descriptor {
     }
 };
 
+/// Deduces the types of the tuples, as clang does by itself from 17 on.
 template <class Features, class Relations>
-view_descriptor(Features, Relations, bool) -> view_descriptor<Features, Relations>;  // for clang 16
+view_descriptor(Features, Relations, bool) -> view_descriptor<Features, Relations>;
 
 }  // namespace gnomon::recognition
