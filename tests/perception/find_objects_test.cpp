@@ -33,7 +33,8 @@ std::vector<sim::furniture_model> chair_and_table() {
 }
 
 /// Learned from views of each alone.
-rec::object_finder learned_finder() {
+/// @param has_poses  of the views, which vote then
+rec::object_finder learned_finder(bool has_poses = true) {
     rec::object_finder finder;
     for (const auto& model : chair_and_table()) {
         const auto samples = sim::sample_surface(model, {.spacing = 0.02});
@@ -46,7 +47,11 @@ rec::object_finder learned_finder() {
                                                                     .noise = find_noise,
                                                                     .gap = rec::infinite_gap,
                                                                     .min_points = 10});
-            for (const rec::view& view : seen.views) finder.learn(view, shot.pose, number);
+            for (const rec::view& view : seen.views)
+                if (has_poses)
+                    finder.learn(view, shot.pose, number);
+                else
+                    finder.learn(view, number);
         }
     }
     finder.fit();
@@ -252,6 +257,22 @@ TEST(find_objects, finds_an_object_without_views) {
     EXPECT_EQ(more.objects[0].aligned.pose.position, found.objects[0].aligned.pose.position);
 }
 
+/// Views without poses do not vote, and teach the recognizer what views with poses do.
+TEST(find_objects, recognizes_by_views_without_poses) {
+    const small_room room;
+    const auto found = learned_finder(false)(room.scan, {.noise = find_noise});
+    expect_chair_and_table(found, room);
+    const auto voted = finder_of_two()(room.scan, {.noise = find_noise});
+    for (const rec::found_object& o : found.objects) {
+        EXPECT_EQ(o.votes, 0.0);
+        EXPECT_LT(o.log_recognized, 0.0);
+        const auto same = std::ranges::find(voted.objects, o.object, &rec::found_object::object);
+        ASSERT_NE(same, voted.objects.end());
+        EXPECT_GT(same->votes, 0.0);
+        EXPECT_NEAR(same->log_recognized, o.log_recognized, 0.2);
+    }
+}
+
 /// A view that is refused is stored nowhere: the finder goes on as before.
 TEST(find_objects, forgets_a_view_that_it_refused) {
     rec::object_finder finder = finder_of_two();
@@ -307,8 +328,9 @@ TEST(find_objects, refuses_bad_arguments) {
     EXPECT_THROW(finder.add("", finder_of_two().surfaces()[0]), std::invalid_argument);
     EXPECT_THROW(finder.add(std::string(rec::background_name), finder_of_two().surfaces()[0]),
                  std::invalid_argument);
-    EXPECT_THROW(finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {}, 0),
-                 std::invalid_argument);
+    const rec::view empty{.parts = {}, .ground = gnomon::plane{}, .rest = {}};
+    EXPECT_THROW(finder.learn(empty, {}, 0), std::invalid_argument);
+    EXPECT_THROW(finder.learn(empty, 0), std::invalid_argument);
     for (const double p : {-0.1, 1.1, nan})
         EXPECT_THROW(static_cast<void>(finder_of_two()(gnomon::scan{}, {.min_probability = p})),
                      std::invalid_argument);

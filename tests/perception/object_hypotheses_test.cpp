@@ -98,6 +98,19 @@ TEST(object_hypotheses, settle_where_they_fit_best) {
     EXPECT_GT(found[0].silhouette.overlap, 0.7);  // that of the pose at which it settled
 }
 
+/// A chair that was left facing the other way, with its back where the back is, turns around.
+TEST(object_hypotheses, settle_facing_the_other_way) {
+    const chair_in_scene chair;
+    const rec::surface_model& model = chair.surfaces()[0];
+    const auto turned = rigid_motion::on_ground(2.0 * model.low().x(), 0.0, degrees(180.0));
+    std::vector<rec::found_object> found{
+        chair.scene().aligned(0, where_chair_is * turned, model, rec::detail::careful_effort)};
+    EXPECT_GT(distance_off(found[0]), 0.2);
+    found[0].probability = 0.7;
+    rec::detail::settle(found, chair.scene(), chair.surfaces(), gnomon::sequential{});
+    EXPECT_LT(distance_off(found[0]), 0.01);
+}
+
 /// Beams that average at edges shift the pose away from the sensor. The points that whole beams hit
 /// do not, and their covariance holds.
 TEST(object_hypotheses, settle_by_whole_beams) {

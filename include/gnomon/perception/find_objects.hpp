@@ -39,12 +39,10 @@
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
-#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/object_competition.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
-#include <gnomon/perception/detail/whole_beams.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
@@ -91,8 +89,16 @@ class object_finder {
         gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
         gnomon::detail::require(is_rigid(pose), "object_finder: the pose is no rigid motion");
         part_votes<>().learn(v, pose, object);  // refuses before anything is stored
-        recognizer_.learn(v, names_[object]);
+        learn(v, object);
         votes_.learn(v, pose, object);
+    }
+
+    /// Stores a view of an object without its pose: its parts distinguish the object from others,
+    /// and do not vote. More such views cost less time in operator() than views that vote.
+    /// @throws std::invalid_argument  if there is no such object, or the view has no ground
+    void learn(const view& v, std::size_t object) {
+        gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
+        recognizer_.learn(v, names_[object]);
         is_fitted_ = false;
     }
 
@@ -173,22 +179,16 @@ class object_finder {
         for (std::size_t i = 0; i < places.size(); ++i) {
             require(places[i].object < names_.size(), "object_finder: there is no such object");
             require(is_rigid(places[i].pose), "object_finder: the pose is no rigid motion");
-            result[i].object = places[i].object;
-            result[i].aligned.pose = places[i].pose;
-            detail::add_shift_on_ground(result[i].aligned, surfaces_[places[i].object], options.up,
-                                        alignment::unknown_deviation);
+            result[i] = detail::unaligned(places[i], surfaces_[places[i].object], options.up);
         }
         const auto& team = gnomon::detail::staying(run);
         (void)in_scene(points, options, team, projection, [&](const scene_of& at) {
             team(places.size(), [&](std::size_t i) {
-                const surface_model& model = surfaces_[places[i].object];
                 found_object& h = result[i];
-                h = detail::aligned_roughly(at.scene, places[i], surfaces_);
-                h = detail::aligned_carefully(at.scene,
-                                              detail::improved_roughly(at.scene, h, model), model);
+                h = detail::aligned_at(at.scene, places[i], surfaces_);
                 recognize(at.scene, h);
                 if (h.probability >= detail::scene_evidence::worth)
-                    h.aligned = at.scene.refined(h.aligned, model);
+                    h.aligned = at.scene.refined(h.aligned, surfaces_[h.object]);
             });
         });
         return result;

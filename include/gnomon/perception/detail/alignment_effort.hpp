@@ -17,13 +17,16 @@ struct alignment_effort {
     /// Between cells and samples that correspond at first [m]: within it, surfaces of neighbors
     /// pull an object away. Chosen on touching rooms of seeds 101 to 140, of .05 to .15 m.
     double max_distance;
+    /// The same at the end [m]. Chosen likewise, on rooms of seeds 101 to 160 and 541 to 590, of
+    /// .015 to .03 m.
+    double last_distance;
 };
 
 /// From the place of votes or of a search, which is up to 10 cm off.
-inline constexpr alignment_effort rough_effort{64, false, 15, 150, 0.15};
+inline constexpr alignment_effort rough_effort{64, false, 15, 150, 0.15, 0.03};
 /// From a start 8 cm next to a pose that was aligned.
-inline constexpr alignment_effort repeated_effort{64, false, 15, 150, 0.08};
+inline constexpr alignment_effort repeated_effort{64, false, 15, 150, 0.08, 0.03};
 /// For poses that were aligned roughly.
-inline constexpr alignment_effort careful_effort{600, true, 50, 1000, 0.05};
+inline constexpr alignment_effort careful_effort{600, true, 50, 1000, 0.05, 0.02};
 
 }  // namespace gnomon::recognition::detail

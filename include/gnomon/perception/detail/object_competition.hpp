@@ -57,7 +57,7 @@ inline void renumber(std::vector<std::int32_t>& of_cell, std::span<const std::in
     constexpr double own_share = 0.5;  // chosen before any room was seen: the larger part
     const double least = std::max(min_probability, scene_evidence::worth);
     const auto is_left = [&](point_index c) { return of_cell[c] == unlabeled; };
-    of_cell.assign(scene.size(), unlabeled);
+    of_cell.assign(scene.cells().size(), unlabeled);
     std::vector<found_object> found;
     while (true) {
         const std::size_t before = found.size();

@@ -12,13 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
+#include <gnomon/perception/detail/whole_beams.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/surface_model.hpp>
@@ -41,11 +45,31 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
            model.symmetry().difference(heading, degrees(0.0)) < turn;
 }
 
+/// Starts for an object that may face the other way, as a chair of which only the back is seen:
+/// turned by half a circle about the vertical axis through the middle of its cells, and of the
+/// whole object across. None for objects that such a turn leaves as they are.
+[[nodiscard]] inline std::vector<rigid_motion> turned_around(const found_object& h,
+                                                             const scene_evidence& scene,
+                                                             const surface_model& model) {
+    constexpr angle half = degrees(180.0);
+    if (model.symmetry().difference(half, degrees(0.0)) < turn_of_one) return {};
+    const auto on = scene.cells_on(model, h.aligned.pose);
+    if (on.empty()) return {};
+    Eigen::Vector3d seen = Eigen::Vector3d::Zero();  // of cells, in the frame of the object
+    for (const point_index i : on) seen += h.aligned.pose.point_in(scene.cells().points[i]);
+    seen *= 2.0 / static_cast<double>(on.size());
+    const Eigen::Vector3d whole = model.low() + model.high();
+    return {h.aligned.pose * rigid_motion::on_ground(whole.x(), seen.y(), half),
+            h.aligned.pose * rigid_motion::on_ground(seen.x(), whole.y(), half)};
+}
+
 /// A hypothesis, or the same object aligned from a start next to it, and again from one next to
 /// that, where it fits clearly better: an alignment may end where a slat of the model is on the
 /// next slat of the chair. One that is not worth it after a round is not improved further.
 /// @param better_from  (best, start): the same object, aligned from a start, if it fits better
-[[nodiscard]] inline found_object improved(found_object best, const auto& better_from) {
+/// @param also         further starts, which are tried once
+[[nodiscard]] inline found_object improved(found_object best, const auto& better_from,
+                                           const std::vector<rigid_motion>& also = {}) {
     constexpr int most = 3;        // rounds; chosen: few change in the third
     constexpr double step = 0.08;  // [m]; chosen, and tried on rooms of seeds 1 to 14
     // Tops of tables slide along themselves, in touching rooms of seeds 101 to 160 and 541 to 590:
@@ -55,18 +79,21 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
     for (int round = 0; round < most; ++round) {
         const rigid_motion from = best.aligned.pose;
         bool is_better = false;
+        const auto try_from = [&](const rigid_motion& start) {
+            std::optional<found_object> next = better_from(best, start);
+            if (!next) return;
+            best = *std::move(next);
+            is_better = true;
+        };
         for (const rigid_motion& other :
              {rigid_motion::on_ground(wide, 0.0, none), rigid_motion::on_ground(-wide, 0.0, none),
               rigid_motion::on_ground(0.0, wide, none), rigid_motion::on_ground(0.0, -wide, none),
               rigid_motion::on_ground(step, 0.0, none), rigid_motion::on_ground(-step, 0.0, none),
               rigid_motion::on_ground(0.0, step, none), rigid_motion::on_ground(0.0, -step, none),
               rigid_motion::on_ground(0.0, 0.0, turn),
-              rigid_motion::on_ground(0.0, 0.0, degrees(-turn.degrees()))}) {
-            std::optional<found_object> next = better_from(best, from * other);
-            if (!next) continue;
-            best = *std::move(next);
-            is_better = true;
-        }
+              rigid_motion::on_ground(0.0, 0.0, degrees(-turn.degrees()))})
+            try_from(from * other);
+        if (round == 0) std::ranges::for_each(also, try_from);
         if (!is_better || best.probability < scene_evidence::worth) break;
     }
     return best;
@@ -81,19 +108,23 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
     });
 }
 
-/// A hypothesis that was aligned carefully, improved. Starts from which a rough alignment returns
-/// to its pose are left out, since a careful one mostly returns to it, too.
+/// A hypothesis that was aligned carefully, improved, also if it faces the other way. Starts from
+/// which a rough alignment returns to its pose are left out, since a careful one mostly returns to
+/// it, too.
 [[nodiscard]] inline found_object improved_carefully(const scene_evidence& scene,
                                                      const found_object& careful,
                                                      const surface_model& model) {
-    return improved(careful, [&](const found_object& best, const rigid_motion& start) {
-        constexpr double apart = 0.01;  // [m]; chosen on rooms of seeds 1 to 60, of .01 and .03
-        constexpr angle turn = degrees(2.0);  // chosen: as wide at 30 cm from the middle
-        const found_object rough = scene.aligned(best.object, start, model, repeated_effort);
-        return is_same(best, rough, model, apart, turn)
-                   ? std::nullopt
-                   : scene.aligned_better(best, start, model, careful_effort);
-    });
+    constexpr double apart = 0.01;        // [m]; chosen on rooms of seeds 1 to 60, of .01 and .03
+    constexpr angle turn = degrees(2.0);  // chosen: as wide at 30 cm from the middle
+    return improved(
+        careful,
+        [&](const found_object& best, const rigid_motion& start) {
+            const found_object rough = scene.aligned(best.object, start, model, repeated_effort);
+            return is_same(best, rough, model, apart, turn)
+                       ? std::nullopt
+                       : scene.aligned_better(best, start, model, careful_effort);
+        },
+        turned_around(careful, scene, model));
 }
 
 /// A hypothesis, aligned carefully from its pose, and compared by its silhouette.
@@ -110,6 +141,24 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
                                                   const object_place& place,
                                                   std::span<const surface_model> models) {
     return scene.aligned(place.object, place.pose, models[place.object], rough_effort);
+}
+
+/// An object that may stand at a place: aligned from there, improved, and aligned carefully.
+[[nodiscard]] inline found_object aligned_at(const scene_evidence& scene, const object_place& place,
+                                             std::span<const surface_model> models) {
+    const surface_model& model = models[place.object];
+    return aligned_carefully(
+        scene, improved_roughly(scene, aligned_roughly(scene, place, models), model), model);
+}
+
+/// An object at a place of which the scan shows nothing: it may be anywhere on the ground.
+[[nodiscard]] inline found_object unaligned(const object_place& place, const surface_model& model,
+                                            const Eigen::Vector3d& up) {
+    found_object h;
+    h.object = place.object;
+    h.aligned.pose = place.pose;
+    add_shift_on_ground(h.aligned, model, up, alignment::unknown_deviation);
+    return h;
 }
 
 /// The hypotheses of a probability of `least` or more, the most probable one first, and of those

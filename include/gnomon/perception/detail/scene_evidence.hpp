@@ -186,8 +186,8 @@ class scene_evidence {
         return detail::cells_on(index_, model, pose);
     }
 
-    /// The number of all cells.
-    [[nodiscard]] std::size_t size() const { return cells_.size(); }
+    /// All cells.
+    [[nodiscard]] const voxel_grid::means& cells() const { return cells_; }
 
   private:
     /// An object, aligned from a pose and verified, or none as soon as it is refused.
@@ -216,6 +216,7 @@ class scene_evidence {
                                        {.noise = noise_,
                                         .on_ground = true,
                                         .max_distance = much.max_distance,
+                                        .last_distance = much.last_distance,
                                         .max_iterations = much.iterations});
         const verification_options how{.noise = noise_, .walls = walls_, .most = much.samples};
         pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
