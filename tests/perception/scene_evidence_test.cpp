@@ -49,7 +49,8 @@ TEST(scene_evidence, compares_poses_as_by_complete_counts) {
         for (const double x : {-0.2, -0.08, 0.0, 0.08, 7.0}) {
             const auto start = where_chair_is * rigid_motion::on_ground(x, 0.02, degrees(50.0 * x));
             const auto complete = scene.aligned(0, start, model, rough);
-            const auto found = scene.aligned_better(than, start, model, rough);
+            const auto found = scene.verified_better(
+                than, scene.only_aligned(0, start, model, rough), model, rough);
             const bool is_better = complete.evidence.samples > 0 &&
                                    rec::detail::fits_better(complete.evidence, than.evidence);
             ASSERT_EQ(found.has_value(), is_better);

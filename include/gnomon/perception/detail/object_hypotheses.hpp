@@ -99,30 +99,41 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
     return best;
 }
 
+/// Aligns an object roughly from a start next to its pose. None if it returns there, as most do.
+[[nodiscard]] inline std::optional<found_object> aligned_elsewhere(const scene_evidence& scene,
+                                                                   const found_object& best,
+                                                                   const rigid_motion& start,
+                                                                   const surface_model& model) {
+    constexpr double apart = 0.01;        // [m]; chosen on rooms of seeds 1 to 60, of .01 and .03
+    constexpr angle turn = degrees(2.0);  // chosen: as wide at 30 cm from the middle
+    found_object rough = scene.only_aligned(best.object, start, model, repeated_effort);
+    return is_same(best, rough, model, apart, turn) ? std::nullopt
+                                                    : std::optional(std::move(rough));
+}
+
 /// A hypothesis that was aligned roughly, improved.
 [[nodiscard]] inline found_object improved_roughly(const scene_evidence& scene,
                                                    const found_object& rough,
                                                    const surface_model& model) {
     return improved(rough, [&](const found_object& best, const rigid_motion& start) {
-        return scene.aligned_better(best, start, model, repeated_effort);
+        std::optional<found_object> other = aligned_elsewhere(scene, best, start, model);
+        return other ? scene.verified_better(best, *std::move(other), model, repeated_effort)
+                     : std::nullopt;
     });
 }
 
 /// A hypothesis that was aligned carefully, improved, also if it faces the other way. Starts from
-/// which a rough alignment returns to its pose are left out, since a careful one mostly returns to
-/// it, too.
+/// which a rough alignment returns are left out, since a careful one mostly returns, too.
 [[nodiscard]] inline found_object improved_carefully(const scene_evidence& scene,
                                                      const found_object& careful,
                                                      const surface_model& model) {
-    constexpr double apart = 0.01;        // [m]; chosen on rooms of seeds 1 to 60, of .01 and .03
-    constexpr angle turn = degrees(2.0);  // chosen: as wide at 30 cm from the middle
     return improved(
         careful,
-        [&](const found_object& best, const rigid_motion& start) {
-            const found_object rough = scene.aligned(best.object, start, model, repeated_effort);
-            return is_same(best, rough, model, apart, turn)
-                       ? std::nullopt
-                       : scene.aligned_better(best, start, model, careful_effort);
+        [&](const found_object& best, const rigid_motion& start) -> std::optional<found_object> {
+            if (!aligned_elsewhere(scene, best, start, model)) return std::nullopt;
+            return scene.verified_better(
+                best, scene.only_aligned(best.object, start, model, careful_effort), model,
+                careful_effort);
         },
         turned_around(careful, scene, model));
 }

@@ -100,23 +100,49 @@ class scene_evidence {
         return search_poses(cells, frame, seen_, walls_, surfaces, run);
     }
 
+    /// An object, aligned from a pose, and not verified. With too few cells it stays there.
+    [[nodiscard]] found_object only_aligned(std::size_t object, const rigid_motion& start,
+                                            const surface_model& model,
+                                            const alignment_effort& much) const {
+        const auto around = Eigen::Vector3d::Constant(0.10);  // [m]; chosen: `reach` of votes
+        found_object h;
+        h.object = object;
+        h.aligned.pose = start;
+        std::vector<point_index> inside;
+        for_each_point_in(index_, start, model.low() - around, model.high() + around,
+                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
+        if (inside.size() < fewest) {
+            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
+            return h;
+        }
+        const auto& samples = much.all_samples ? model.all() : model.coarse();
+        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
+                                       {.noise = noise_,
+                                        .on_ground = true,
+                                        .max_distance = much.max_distance,
+                                        .last_distance = much.last_distance,
+                                        .max_iterations = much.iterations});
+        return h;
+    }
+
     /// An object, aligned from a pose and verified.
     [[nodiscard]] found_object aligned(std::size_t object, const rigid_motion& start,
                                        const surface_model& model,
                                        const alignment_effort& much) const {
-        return *aligned_unless(object, start, model, much,
-                               [](const verification&, std::size_t) { return false; });
+        found_object h = only_aligned(object, start, model, much);
+        (void)verify(h, model, much, [](const verification&, std::size_t) { return false; });
+        return h;
     }
 
-    /// The same object, aligned from another pose, if it fits better there.
-    [[nodiscard]] std::optional<found_object> aligned_better(const found_object& than,
-                                                             const rigid_motion& start,
-                                                             const surface_model& model,
-                                                             const alignment_effort& much) const {
-        return aligned_unless(than.object, start, model, much,
-                              [&](const verification& v, std::size_t left) {
-                                  return v.samples == 0 || !fits_better(v, than.evidence, left);
-                              });
+    /// The same object, which was only aligned, verified if it fits better than before.
+    [[nodiscard]] std::optional<found_object> verified_better(const found_object& than,
+                                                              found_object h,
+                                                              const surface_model& model,
+                                                              const alignment_effort& much) const {
+        const bool is_better = verify(h, model, much, [&](const verification& v, std::size_t left) {
+            return !fits_better(v, than.evidence, left);
+        });
+        return is_better ? std::optional(std::move(h)) : std::nullopt;
     }
 
     /// The alignment of an object that was found, by the cells that whole beams hit, and by its
@@ -190,43 +216,20 @@ class scene_evidence {
     [[nodiscard]] const voxel_grid::means& cells() const { return cells_; }
 
   private:
-    /// An object, aligned from a pose and verified, or none as soon as it is refused.
+    /// Verifies an object until it is refused. False then, or if it was aligned with no cells.
     /// @param is_refused  (counts, left): by the counts of all but the last `left` samples
-    [[nodiscard]] std::optional<found_object> aligned_unless(std::size_t object,
-                                                             const rigid_motion& start,
-                                                             const surface_model& model,
-                                                             const alignment_effort& much,
-                                                             const auto& is_refused) const {
-        constexpr double margin = 0.10;  // [m]: error of votes; chosen: `reach` of these
-        found_object h;
-        h.object = object;
-        h.aligned.pose = start;
-        const Eigen::Vector3d around = Eigen::Vector3d::Constant(margin);
-        std::vector<point_index> inside;
-        for_each_point_in(index_, start, model.low() - around, model.high() + around,
-                          [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
-        const bool is_enough = inside.size() >= fewest;
-        if (!is_enough && is_refused(h.evidence, 0)) return std::nullopt;
-        if (!is_enough) {
-            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
-            return h;
-        }
-        const auto& samples = much.all_samples ? model.all() : model.coarse();
-        h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
-                                       {.noise = noise_,
-                                        .on_ground = true,
-                                        .max_distance = much.max_distance,
-                                        .last_distance = much.last_distance,
-                                        .max_iterations = much.iterations});
+    bool verify(found_object& h, const surface_model& model, const alignment_effort& much,
+                const auto& is_refused) const {
+        if (h.aligned.points == 0) return false;
         const verification_options how{.noise = noise_, .walls = walls_, .most = much.samples};
         pose_verifier verifier(index_, seen_, model, h.aligned.pose, how);
         const auto normal_of = [&](point_index i) { return surface_[i].normal; };
-        if (!verifier.count_samples(normal_of, is_refused)) return std::nullopt;
+        if (!verifier.count_samples(normal_of, is_refused)) return false;
         verifier.count_points(all_points);
         h.evidence = verifier.counts();
-        h.votes = votes_.at(object, h.aligned.pose);
+        h.votes = votes_.at(h.object, h.aligned.pose);
         h.probability = probability_of(h);
-        return h;
+        return true;
     }
 
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
