@@ -284,9 +284,11 @@ TEST(find_objects, forgets_a_view_that_it_refused) {
     rec::view& bad = seen.views[0];
     bad.ground->normal *= 2.0;
     EXPECT_THROW(finder.learn(bad, shot.pose, 0), std::invalid_argument);
+    EXPECT_THROW(finder.learn(bad, 0), std::invalid_argument);
     bad.ground = gnomon::plane{};
     bad.parts.at(0).shape.frame.box_center.x() = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(finder.learn(bad, shot.pose, 0), std::invalid_argument);
+    EXPECT_THROW(finder.learn(bad, 0), std::invalid_argument);
     const small_room room;
     expect_chair_and_table(finder(room.scan, {.noise = find_noise}), room);
 }

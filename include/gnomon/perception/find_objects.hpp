@@ -86,7 +86,6 @@ class object_finder {
     ///                                view has no ground of unit normal, or a part is not finite;
     ///                                nothing is stored then
     void learn(const view& v, const rigid_motion& pose, std::size_t object) {
-        gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
         gnomon::detail::require(is_rigid(pose), "object_finder: the pose is no rigid motion");
         part_votes<>().learn(v, pose, object);  // refuses before anything is stored
         learn(v, object);
@@ -95,9 +94,10 @@ class object_finder {
 
     /// Stores a view of an object without its pose: its parts distinguish the object from others,
     /// and do not vote. More such views cost less time in operator() than views that vote.
-    /// @throws std::invalid_argument  if there is no such object, or the view has no ground
+    /// @throws std::invalid_argument  as above
     void learn(const view& v, std::size_t object) {
         gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
+        part_votes<>().learn(v, {}, object);  // likewise
         recognizer_.learn(v, names_[object]);
         is_fitted_ = false;
     }
