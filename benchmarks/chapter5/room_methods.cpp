@@ -24,8 +24,8 @@
 namespace {
 
 /// The recognizer learns all views of a model, and one of three votes: more votes cost time in each
-/// room, and more views that do not vote cost none. Chosen on touching rooms of seeds 101 to 160.
-constexpr std::size_t views_to_recognize = 3;
+/// room, and more views that do not vote hardly any. Chosen on touching rooms of seeds 101 to 160.
+constexpr std::size_t views_per_vote = 3;
 
 /// What is learned as background: pieces, and views of each.
 constexpr std::size_t background_pieces = 24;
@@ -108,11 +108,11 @@ rec::object_finder finder_of(const effort& much, std::uint64_t seed) {
         finder.add(model.name, rec::surface_model(samples, samples, spacing, std::nullopt,
                                                   &sim::surface_sample::position));
     }
-    const std::size_t n = views_to_recognize * views_per_model(much);
+    const std::size_t n = views_per_vote * views_per_model(much);
     sim::object_view_options how{.beam = {.sigma = room_kind{}.sigma}, .seed = seed};
     learn_shots(sim::simulate_object_views(models, n, how, gnomon::threads{}), how,
                 [&](const rec::view& v, const sim::object_view& shot, std::size_t number) {
-                    if (number % views_to_recognize == 0)
+                    if (number % views_per_vote == 0)
                         finder.learn(v, shot.pose, shot.model);
                     else
                         finder.learn(v, shot.model);

@@ -93,7 +93,7 @@ class object_finder {
     }
 
     /// Stores a view of an object without its pose: its parts distinguish the object from others,
-    /// and do not vote. More such views cost less time in operator() than views that vote.
+    /// and do not vote. Views that vote cost time in operator(), these hardly any.
     /// @throws std::invalid_argument  as above
     void learn(const view& v, std::size_t object) {
         gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");

@@ -22,7 +22,6 @@
 #include <gnomon/perception/detail/alignment_effort.hpp>
 #include <gnomon/perception/detail/object_probability.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
-#include <gnomon/perception/detail/whole_beams.hpp>
 #include <gnomon/perception/found_object.hpp>
 #include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/surface_model.hpp>
@@ -160,16 +159,6 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
     const surface_model& model = models[place.object];
     return aligned_carefully(
         scene, improved_roughly(scene, aligned_roughly(scene, place, models), model), model);
-}
-
-/// An object at a place of which the scan shows nothing: it may be anywhere on the ground.
-[[nodiscard]] inline found_object unaligned(const object_place& place, const surface_model& model,
-                                            const Eigen::Vector3d& up) {
-    found_object h;
-    h.object = place.object;
-    h.aligned.pose = place.pose;
-    add_shift_on_ground(h.aligned, model, up, alignment::unknown_deviation);
-    return h;
 }
 
 /// The hypotheses of a probability of `least` or more, the most probable one first, and of those

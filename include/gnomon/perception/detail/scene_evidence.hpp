@@ -105,16 +105,11 @@ class scene_evidence {
                                             const surface_model& model,
                                             const alignment_effort& much) const {
         const auto around = Eigen::Vector3d::Constant(0.10);  // [m]; chosen: `reach` of votes
-        found_object h;
-        h.object = object;
-        h.aligned.pose = start;
+        found_object h = unaligned({object, start, 0.0}, model, ground_.normal);
         std::vector<point_index> inside;
         for_each_point_in(index_, start, model.low() - around, model.high() + around,
                           [&](point_index i, const Eigen::Vector3d&) { inside.push_back(i); });
-        if (inside.size() < fewest) {
-            add_shift_on_ground(h.aligned, model, ground_.normal, alignment::unknown_deviation);
-            return h;
-        }
+        if (inside.size() < fewest) return h;
         const auto& samples = much.all_samples ? model.all() : model.coarse();
         h.aligned = alignment_of_cells(cells_, surface_, inside, much.cells, samples, start,
                                        {.noise = noise_,

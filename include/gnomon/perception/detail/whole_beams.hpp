@@ -32,6 +32,8 @@
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/perception/detail/cells_of_object.hpp>
 #include <gnomon/perception/detail/ground_motions.hpp>
+#include <gnomon/perception/found_object.hpp>
+#include <gnomon/recognition/cast_votes.hpp>
 #include <gnomon/recognition/detail/points_in_bounds.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 
@@ -153,6 +155,16 @@ inline void add_shift_on_ground(alignment& found, const surface_model& model,
             found.covariance(3 + i, 3 + j) += shift * shift * ((i == j ? 1.0 : 0.0) - upright);
         }
     }
+}
+
+/// An object at a place of which the scan shows nothing: it may be anywhere on the ground.
+[[nodiscard]] inline found_object unaligned(const object_place& place, const surface_model& model,
+                                            const Eigen::Vector3d& up) {
+    found_object h;
+    h.object = place.object;
+    h.aligned.pose = place.pose;
+    add_shift_on_ground(h.aligned, model, up, alignment::unknown_deviation);
+    return h;
 }
 
 /// Cells of a scan, seen by beams of some width.
