@@ -3576,6 +3576,8 @@ struct tree_question {
     const place_set* among = nullptr;  // only these points are found; all, if there is no set
 };
 
+inline namespace GNOMON_LANES {
+
 /// One search. Keeps the best candidates in `found`, which finish() puts into canonical order.
 template <class Metric, class Found>
 class tree_query {
@@ -3617,10 +3619,15 @@ class tree_query {
                     break;
                 }
                 const auto [left, right] = at.node.children();
-                const pending a{left, bound(left)}, b{right, bound(right)};
-                const bool is_left_nearer = a.squared <= b.squared;
-                stack[depth++] = is_left_nearer ? b : a;
-                at = is_left_nearer ? a : b;
+                const double to_left = bound(left), to_right = bound(right);
+                // A branch, since copies of either would wait for both (performance only).
+                if (to_left <= to_right) {
+                    stack[depth++] = {right, to_right};
+                    at = {left, to_left};
+                } else {
+                    stack[depth++] = {left, to_left};
+                    at = {right, to_right};
+                }
             }
         }
         if (found_.size() > most_) drop_farthest();
@@ -3677,8 +3684,8 @@ class tree_query {
             squared[l] = metric_.squared(at_[0] - x[l], at_[1] - y[l], at_[2] - z[l]);
         const std::size_t size = std::min(squared.size(), tree_.size() - begin);
         std::uint32_t within = 0;  // a mask first: branches would often be predicted wrongly
-        for (std::size_t l = 0; l < squared.size(); ++l)
-            within |= static_cast<std::uint32_t>(squared[l] <= limit_) << l;
+        for (std::size_t l = 0; l < squared.size(); l += pack::size)
+            within |= at_most(pack(squared.data() + l), limit_) << l;
         within &= ~std::uint32_t{0} >> (squared.size() - size);
         for (; within != 0; within &= within - 1) {
             const auto l = static_cast<std::size_t>(std::countr_zero(within));
@@ -3768,6 +3775,7 @@ void search_tree_unsorted(const leaf_tree& tree, const Eigen::Vector3d& p,
     tree_query(tree, p, question, canonical_metric{}, found).collect();
 }
 
+}  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/search_options.hpp ------------------------------------------------
@@ -17757,9 +17765,18 @@ class range_image {
     /// users compile it.)
     template <class Point = Eigen::Vector3d>
     [[nodiscard]] pixel pixel_of(const Point& p) const {
-        std::array<Eigen::Vector3d, detail::slim_pack::size> to;
-        to.fill(detail::difference(p, viewpoint_));
-        return axes_.cells_towards(to, width_, height_)[0];
+        std::array<Eigen::Vector3d, detail::slim_pack::size> same;
+        same.fill(p);
+        return pixels_of(same)[0];
+    }
+
+    /// Where N points are seen, as with pixel_of() for each, but N at a time: as many as a vector
+    /// of the processor has numbers, or a multiple. Precondition as above.
+    template <std::size_t N>
+    [[nodiscard]] std::array<pixel, N> pixels_of(const std::array<Eigen::Vector3d, N>& p) const {
+        std::array<Eigen::Vector3d, N> to;
+        for (std::size_t l = 0; l < N; ++l) to[l] = detail::difference(p[l], viewpoint_);
+        return axes_.cells_towards(to, width_, height_);
     }
 
     /// The unit vector from the view point through the middle of a pixel. (A template, as above.)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -79,6 +80,17 @@ TEST(range_image, with_the_pole_up_is_that_of_the_thesis) {
         EXPECT_EQ(image.pixel_of(viewpoint + d),
                   (pixel{static_cast<std::size_t>(a), static_cast<std::size_t>(e)}));
     }
+}
+
+TEST(range_image, has_the_same_pixels_of_some_points_as_of_each) {
+    const Eigen::Vector3d viewpoint(1, -2, 0.5);
+    const range_image image(all_around(50, 1), viewpoint, {.width = 36, .height = 18});
+    constexpr std::size_t n = 2 * gnomon::detail::slim_pack::size;
+    std::array<Eigen::Vector3d, n> some;
+    std::ranges::copy_n(all_around(n, 2).begin(), n, some.begin());
+    some.back() = viewpoint;
+    const auto pixels = image.pixels_of(some);
+    for (std::size_t l = 0; l < n; ++l) EXPECT_EQ(pixels[l], image.pixel_of(some[l]));
 }
 
 TEST(range_image, closes_at_azimuth_pi_and_ends_at_the_pole) {

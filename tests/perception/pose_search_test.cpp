@@ -181,7 +181,7 @@ TEST(pose_search, finds_nothing_in_walls) {
         const auto column = [&](std::size_t axis, double at) {
             return static_cast<std::size_t>(std::lround((at - space.middle(axis, 0)) / edge));
         };
-        return space.column(false, column(0, x), column(1, y))[14];  // 0.7 m above ground
+        return space.column(column(0, x), column(1, y))[14];  // 0.7 m above ground
     };
     constexpr auto empty = rec::detail::observed_space::empty;
     EXPECT_EQ(value({half}, 2.6, -0.5), empty);  // seen through

@@ -89,9 +89,18 @@ class range_image {
     /// users compile it.)
     template <class Point = Eigen::Vector3d>
     [[nodiscard]] pixel pixel_of(const Point& p) const {
-        std::array<Eigen::Vector3d, detail::slim_pack::size> to;
-        to.fill(detail::difference(p, viewpoint_));
-        return axes_.cells_towards(to, width_, height_)[0];
+        std::array<Eigen::Vector3d, detail::slim_pack::size> same;
+        same.fill(p);
+        return pixels_of(same)[0];
+    }
+
+    /// Where N points are seen, as with pixel_of() for each, but N at a time: as many as a vector
+    /// of the processor has numbers, or a multiple. Precondition as above.
+    template <std::size_t N>
+    [[nodiscard]] std::array<pixel, N> pixels_of(const std::array<Eigen::Vector3d, N>& p) const {
+        std::array<Eigen::Vector3d, N> to;
+        for (std::size_t l = 0; l < N; ++l) to[l] = detail::difference(p[l], viewpoint_);
+        return axes_.cells_towards(to, width_, height_);
     }
 
     /// The unit vector from the view point through the middle of a pixel. (A template, as above.)

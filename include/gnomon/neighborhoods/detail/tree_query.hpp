@@ -18,6 +18,8 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/detail/place_set.hpp>
@@ -43,6 +45,8 @@ struct tree_question {
     point_index except = std::numeric_limits<point_index>::max();  // this point is left out
     const place_set* among = nullptr;  // only these points are found; all, if there is no set
 };
+
+inline namespace GNOMON_LANES {
 
 /// One search. Keeps the best candidates in `found`, which finish() puts into canonical order.
 template <class Metric, class Found>
@@ -85,10 +89,15 @@ class tree_query {
                     break;
                 }
                 const auto [left, right] = at.node.children();
-                const pending a{left, bound(left)}, b{right, bound(right)};
-                const bool is_left_nearer = a.squared <= b.squared;
-                stack[depth++] = is_left_nearer ? b : a;
-                at = is_left_nearer ? a : b;
+                const double to_left = bound(left), to_right = bound(right);
+                // A branch, since copies of either would wait for both (performance only).
+                if (to_left <= to_right) {
+                    stack[depth++] = {right, to_right};
+                    at = {left, to_left};
+                } else {
+                    stack[depth++] = {left, to_left};
+                    at = {right, to_right};
+                }
             }
         }
         if (found_.size() > most_) drop_farthest();
@@ -145,8 +154,8 @@ class tree_query {
             squared[l] = metric_.squared(at_[0] - x[l], at_[1] - y[l], at_[2] - z[l]);
         const std::size_t size = std::min(squared.size(), tree_.size() - begin);
         std::uint32_t within = 0;  // a mask first: branches would often be predicted wrongly
-        for (std::size_t l = 0; l < squared.size(); ++l)
-            within |= static_cast<std::uint32_t>(squared[l] <= limit_) << l;
+        for (std::size_t l = 0; l < squared.size(); l += pack::size)
+            within |= at_most(pack(squared.data() + l), limit_) << l;
         within &= ~std::uint32_t{0} >> (squared.size() - size);
         for (; within != 0; within &= within - 1) {
             const auto l = static_cast<std::size_t>(std::countr_zero(within));
@@ -236,4 +245,5 @@ void search_tree_unsorted(const leaf_tree& tree, const Eigen::Vector3d& p,
     tree_query(tree, p, question, canonical_metric{}, found).collect();
 }
 
+}  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

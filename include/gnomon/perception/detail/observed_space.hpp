@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 #include <gnomon/occlusion/visibility.hpp>
@@ -71,26 +72,31 @@ class observed_space {
     [[nodiscard]] double middle(std::size_t axis, std::size_t column) const {
         return low_[axis] + edge * (static_cast<double>(column) + 0.5);
     }
-    /// How much samples count, from the ground upwards in column (i, j), for level surfaces or
-    /// others.
-    [[nodiscard]] const std::int8_t* column(bool is_level, std::size_t i, std::size_t j) const {
-        return value_[is_level ? 1 : 0].data() + (i * size_[1] + j) * size_[2] + 1;
+    /// How much samples on the ground count in column (i, j), to which steps lead from there.
+    [[nodiscard]] const std::int8_t* column(std::size_t i, std::size_t j) const {
+        return value_.data() + (i * size_[1] + j) * size_[2] + 1;
     }
-    /// From a value to that of the voxel which contains an offset [m]; the height is above ground.
-    [[nodiscard]] std::ptrdiff_t step_to(const Eigen::Vector3d& offset) const {
+    /// From there to how much a sample of a level surface, or of another one, counts in the voxel
+    /// that contains an offset [m]; the height is above ground.
+    [[nodiscard]] std::ptrdiff_t step_to(bool is_level, const Eigen::Vector3d& offset) const {
         const auto steps = [](double x) { return static_cast<std::ptrdiff_t>(std::floor(x)); };
         return (steps(offset.x() / edge + 0.5) * static_cast<std::ptrdiff_t>(size_[1]) +
                 steps(offset.y() / edge + 0.5)) *
                    static_cast<std::ptrdiff_t>(size_[2]) +
-               steps(offset.z() / edge);
+               steps(offset.z() / edge) + (is_level ? static_cast<std::ptrdiff_t>(voxels()) : 0);
     }
 
   private:
     static constexpr std::int8_t unknown = 0;
+    static constexpr std::size_t few = gnomon::detail::slim_pack::size;  // performance only
+    using few_places = std::array<Eigen::Vector3d, few>;
+    static constexpr std::size_t kinds_of_surfaces = 2;  // upright ones first
+
+    [[nodiscard]] std::size_t voxels() const { return size_[0] * size_[1] * size_[2]; }
 
     void fill(std::span<const ground_cell> cells, const auto& run) {
         constexpr double level = 0.8, upright = 0.6;  // chosen: cosines; between them both kinds
-        std::vector<unsigned char> kinds(size_[0] * size_[1] * size_[2], 0);
+        std::vector<unsigned char> kinds(voxels(), 0);
         for (const ground_cell& c : cells) {
             const double height = c.at.z() / edge;
             if (!(height >= 0.0 && height < static_cast<double>(size_[2] - 2))) continue;
@@ -100,49 +106,71 @@ class observed_space {
                 static_cast<unsigned char>((c.up < level ? 1 : 0) | (c.up > upright ? 2 : 0));
         }
         // Cells are `reach` and two voxels from the sides, and one from bottom and top.
-        run(value_.size(), [&](std::size_t kind) {
-            value_[kind].assign(kinds.size(), unknown);
+        value_.assign(kinds_of_surfaces * voxels(), unknown);
+        run(kinds_of_surfaces, [&](std::size_t kind) {
             for (std::size_t k = 0; k < kinds.size(); ++k)
-                if (kinds[k] != 0) spread(value_[kind], k, (kinds[k] >> kind & 1) != 0);
+                if (kinds[k] != 0) spread(kind * voxels() + k, (kinds[k] >> kind & 1) != 0);
         });
     }
 
     /// Fills a voxel and those around it, which are of the kind or not.
-    void spread(std::vector<std::int8_t>& value, std::size_t k, bool is_of_kind) const {
+    void spread(std::size_t k, bool is_of_kind) {
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t j = 0; j < 3; ++j) {
                 for (std::size_t h = 0; h < 3; ++h) {
                     const std::int8_t more = !is_of_kind                  ? of_other_kind
                                              : i == 1 && j == 1 && h == 1 ? occupied
                                                                           : adjacent;
-                    std::int8_t& v = value[k + (i * size_[1] + j) * size_[2] + h -
-                                           ((size_[1] + 1) * size_[2] + 1)];
+                    std::int8_t& v = value_[k + (i * size_[1] + j) * size_[2] + h -
+                                            ((size_[1] + 1) * size_[2] + 1)];
                     v = v == unknown ? more : std::max(v, more);
                 }
             }
         }
     }
 
+    /// Finds where the sensor saw through or a wall is, in a few voxels at once.
     void find_empty(const rigid_motion& frame, const visibility& seen, std::span<const wall> walls,
                     const auto& run) {
-        constexpr double margin = 2.0 * edge;  // [m]; chosen: half a diagonal of 4 cm, and noise
         run(size_[0], [&](std::size_t i) {
+            few_places at;
+            std::array<std::size_t, few> voxel{};
+            std::size_t n = 0;
+            const auto mark = [&] {
+                std::fill(at.begin() + static_cast<std::ptrdiff_t>(n), at.end(), at.front());
+                const auto is_empty = are_empty(at, seen, walls);
+                for (std::size_t l = 0; l < n; ++l)
+                    if (is_empty[l]) value_[voxel[l]] = value_[voxels() + voxel[l]] = empty;
+                n = 0;
+            };
             for (std::size_t j = 0; j < size_[1]; ++j) {
                 for (std::size_t h = 0; h < size_[2]; ++h) {
                     const std::size_t k = (i * size_[1] + j) * size_[2] + h;
-                    if (value_[0][k] != unknown) continue;
-                    const Eigen::Vector3d x = frame.point_out(
+                    if (value_[k] != unknown) continue;
+                    at[n] = frame.point_out(
                         {middle(0, i), middle(1, j), edge * (static_cast<double>(h) - 0.5)});
-                    const bool is_empty =
-                        std::ranges::any_of(seen.images(), [&](const range_image& image) {
-                            const double range = image.range(image.pixel_of(x));
-                            return range > image.distance_to(x) + margin ||
-                                   is_in_wall(x, walls, image);
-                        });
-                    if (is_empty) value_[0][k] = value_[1][k] = empty;
+                    voxel[n++] = k;
+                    if (n == few) mark();
                 }
             }
+            if (n > 0) mark();
         });
+    }
+
+    /// Whether one view point saw through a place, or a wall there.
+    [[nodiscard]] static std::array<bool, few> are_empty(const few_places& at,
+                                                         const visibility& seen,
+                                                         std::span<const wall> walls) {
+        constexpr double margin = 2.0 * edge;  // [m]; chosen: half a diagonal of 4 cm, and noise
+        std::array<bool, few> is_empty{};
+        for (const range_image& image : seen.images()) {
+            const auto pixels = image.pixels_of(at);
+            for (std::size_t l = 0; l < few; ++l)
+                is_empty[l] = is_empty[l] ||
+                              image.range(pixels[l]) > image.distance_to(at[l]) + margin ||
+                              is_in_wall(at[l], walls, image);
+        }
+        return is_empty;
     }
 
     /// Whether a place is little behind a wall that is seen in front of it. (Farther behind it,
@@ -160,7 +188,7 @@ class observed_space {
     std::array<double, 2> low_{};
     std::array<std::size_t, 3> size_{};
     std::array<std::size_t, 2> begin_{}, end_{};
-    std::array<std::vector<std::int8_t>, 2> value_;
+    std::vector<std::int8_t> value_;  // of the voxels, for each kind of surfaces
 };
 
 }  // namespace gnomon::recognition::detail

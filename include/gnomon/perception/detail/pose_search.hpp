@@ -86,19 +86,18 @@ class pose_search {
         const angle heading = radians(2.0 * std::numbers::pi * turn / full_turn);
         const rigid_motion turned = rigid_motion::on_ground(0.0, 0.0, heading);
         constexpr double level = 0.7;  // chosen: cosine of 45 degrees
-        std::vector<std::pair<bool, std::ptrdiff_t>> steps;
+        std::vector<std::ptrdiff_t> steps;
         for (const std::size_t i : samples_)
-            steps.emplace_back(std::abs(model_.normals()[i].normal.z()) > level,
-                               space.step_to(turned.point_out(model_.points()[i])));
+            steps.push_back(space.step_to(std::abs(model_.normals()[i].normal.z()) > level,
+                                          turned.point_out(model_.points()[i])));
         const int needed = static_cast<int>(std::ceil(least * static_cast<double>(steps.size())));
         for (std::size_t i = space.begin(0); i < space.end(0); i += stride) {
             for (std::size_t j = space.begin(1); j < space.end(1); j += stride) {
-                const std::int8_t* upright = space.column(false, i, j);
-                const std::int8_t* flat = space.column(true, i, j);
+                const std::int8_t* value = space.column(i, j);
                 int sum = 0;
                 auto open = static_cast<int>(steps.size());
-                for (const auto& step : steps) {
-                    sum += (step.first ? flat : upright)[step.second];
+                for (const std::ptrdiff_t step : steps) {
+                    sum += value[step];
                     --open;
                     if (sum + observed_space::occupied * open < needed) break;
                 }

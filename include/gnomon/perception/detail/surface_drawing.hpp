@@ -52,7 +52,7 @@ class surface_drawing {
         for (const disc& d : discs_) {
             const Eigen::Vector3d way =
                 gnomon::detail::difference(pose.point_out(d.at), plane_.viewpoint);
-            draw_ellipse((plane_.place_of(way) - low_) / cell_, d.a, d.b);
+            draw((plane_.place_of(way) - low_) / cell_, d);
         }
     }
 
@@ -74,7 +74,8 @@ class surface_drawing {
     /// A disc around a sample.
     struct disc {
         Eigen::Vector3d at;    ///< in the frame of the object [m]
-        Eigen::Vector2d a, b;  ///< conjugate half axes of its image, in cells
+        Eigen::Vector2d a, b;  ///< conjugate half axes of its image, an ellipse, in cells
+        double wide, tall;     ///< half of its width and of its height, likewise
     };
 
     /// The discs around the samples that are drawn, which cover the faces. They look alike from all
@@ -92,28 +93,29 @@ class surface_drawing {
             const auto to = [&](const Eigen::Vector3d& d) -> Eigen::Vector2d {
                 return (plane_.place_of(combined(1.0, way, 1.0, d)) - middle) / cell_;
             };
-            discs_.push_back({pose.point_in(s.at), to(a), to(b)});
+            const Eigen::Vector2d p = to(a), q = to(b);
+            discs_.push_back(
+                {pose.point_in(s.at), p, q, std::hypot(p.x(), q.x()), std::hypot(p.y(), q.y())});
         };
         constexpr double all = -std::numeric_limits<double>::infinity();  // heights
         for_each_facing_sample(model, pose, plane_.viewpoint, all, visit);
     }
 
-    /// @param a, b  conjugate half axes; all in cells
-    void draw_ellipse(const Eigen::Vector2d& middle, const Eigen::Vector2d& a,
-                      const Eigen::Vector2d& b) {
-        const double wide = std::hypot(a.x(), b.x()), tall = std::hypot(a.y(), b.y());
+    /// @param middle  of the image of the disc, in cells
+    void draw(const Eigen::Vector2d& middle, const disc& d) {
+        const Eigen::Vector2d &a = d.a, &b = d.b;
         const auto cell = [](double x, std::ptrdiff_t size) {
             return static_cast<std::ptrdiff_t>(
                 std::clamp(std::floor(x), 0.0, static_cast<double>(size - 1)));
         };
-        if (!(middle.x() + wide >= 0.0 && middle.y() + tall >= 0.0 &&
-              middle.x() - wide < static_cast<double>(width_) &&
-              middle.y() - tall < static_cast<double>(height_)))
+        if (!(middle.x() + d.wide >= 0.0 && middle.y() + d.tall >= 0.0 &&
+              middle.x() - d.wide < static_cast<double>(width_) &&
+              middle.y() - d.tall < static_cast<double>(height_)))
             return;
         const double area = a.x() * b.y() - a.y() * b.x();
-        for (auto y = cell(middle.y() - tall, height_); y <= cell(middle.y() + tall, height_);
+        for (auto y = cell(middle.y() - d.tall, height_); y <= cell(middle.y() + d.tall, height_);
              ++y) {
-            for (auto x = cell(middle.x() - wide, width_); x <= cell(middle.x() + wide, width_);
+            for (auto x = cell(middle.x() - d.wide, width_); x <= cell(middle.x() + d.wide, width_);
                  ++x) {
                 const double dx = static_cast<double>(x) + 0.5 - middle.x();
                 const double dy = static_cast<double>(y) + 0.5 - middle.y();
