@@ -85,7 +85,7 @@ TEST(range_image, with_the_pole_up_is_that_of_the_thesis) {
 TEST(range_image, has_the_same_pixels_of_some_points_as_of_each) {
     const Eigen::Vector3d viewpoint(1, -2, 0.5);
     const range_image image(all_around(50, 1), viewpoint, {.width = 36, .height = 18});
-    constexpr std::size_t n = 2 * gnomon::detail::slim_pack::size;
+    constexpr std::size_t n = 11;
     std::array<Eigen::Vector3d, n> some;
     std::ranges::copy_n(all_around(n, 2).begin(), n, some.begin());
     some.back() = viewpoint;

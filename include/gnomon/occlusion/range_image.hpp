@@ -89,18 +89,23 @@ class range_image {
     /// users compile it.)
     template <class Point = Eigen::Vector3d>
     [[nodiscard]] pixel pixel_of(const Point& p) const {
-        std::array<Eigen::Vector3d, detail::slim_pack::size> same;
-        same.fill(p);
-        return pixels_of(same)[0];
+        return pixels_of(std::array<Eigen::Vector3d, 1>{p})[0];
     }
 
-    /// Where N points are seen, as with pixel_of() for each, but N at a time: as many as a vector
-    /// of the processor has numbers, or a multiple. Precondition as above.
+    /// Where N points are seen, as pixel_of() says, in less time than one by one. Precondition as
+    /// above, for each.
     template <std::size_t N>
     [[nodiscard]] std::array<pixel, N> pixels_of(const std::array<Eigen::Vector3d, N>& p) const {
-        std::array<Eigen::Vector3d, N> to;
-        for (std::size_t l = 0; l < N; ++l) to[l] = detail::difference(p[l], viewpoint_);
-        return axes_.cells_towards(to, width_, height_);
+        constexpr std::size_t width = detail::slim_pack::size;
+        std::array<pixel, N> at;
+        std::array<Eigen::Vector3d, width> to;
+        for (std::size_t k = 0; k < N; k += width) {
+            for (std::size_t l = 0; l < width; ++l)
+                to[l] = detail::difference(p[std::min(k + l, N - 1)], viewpoint_);
+            const auto cells = axes_.cells_towards(to, width_, height_);
+            std::copy_n(cells.begin(), std::min(width, N - k), at.begin() + k);
+        }
+        return at;
     }
 
     /// The unit vector from the view point through the middle of a pixel. (A template, as above.)

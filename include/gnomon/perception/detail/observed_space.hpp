@@ -13,7 +13,6 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 #include <gnomon/occlusion/visibility.hpp>
@@ -88,7 +87,7 @@ class observed_space {
 
   private:
     static constexpr std::int8_t unknown = 0;
-    static constexpr std::size_t few = gnomon::detail::slim_pack::size;  // performance only
+    static constexpr std::size_t few = 8;  // performance only: pixels that are found at once
     using few_places = std::array<Eigen::Vector3d, few>;
     static constexpr std::size_t kinds_of_surfaces = 2;  // upright ones first
 
