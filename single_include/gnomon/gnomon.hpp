@@ -17760,16 +17760,14 @@ class range_image {
     [[nodiscard]] std::size_t height() const { return height_; }                   ///< in pixels
     [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }  ///< [m]
 
-    /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
-    /// the last row. Precondition: its distance, squared, is finite. (A template, so that only its
-    /// users compile it.)
+    /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, the pole in the last
+    /// row. Precondition: its squared distance is finite. (A template: only its users compile it.)
     template <class Point = Eigen::Vector3d>
     [[nodiscard]] pixel pixel_of(const Point& p) const {
         return pixels_of(std::array<Eigen::Vector3d, 1>{p})[0];
     }
 
-    /// Where N points are seen, as pixel_of() says, in less time than one by one. Precondition as
-    /// above, for each.
+    /// Where N points are seen, as by pixel_of(), in less time. Precondition as above.
     template <std::size_t N>
     [[nodiscard]] std::array<pixel, N> pixels_of(const std::array<Eigen::Vector3d, N>& p) const {
         constexpr std::size_t width = detail::slim_pack::size;
@@ -17778,8 +17776,8 @@ class range_image {
         for (std::size_t k = 0; k < N; k += width) {
             for (std::size_t l = 0; l < width; ++l)
                 to[l] = detail::difference(p[std::min(k + l, N - 1)], viewpoint_);
-            const auto cells = axes_.cells_towards(to, width_, height_);
-            std::copy_n(cells.begin(), std::min(width, N - k), at.begin() + k);
+            std::copy_n(axes_.cells_towards(to, width_, height_).begin(), std::min(width, N - k),
+                        at.begin() + k);
         }
         return at;
     }
