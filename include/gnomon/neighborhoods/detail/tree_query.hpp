@@ -14,11 +14,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
@@ -89,15 +89,10 @@ class tree_query {
                     break;
                 }
                 const auto [left, right] = at.node.children();
-                const double to_left = bound(left), to_right = bound(right);
-                // A branch, since copies of either would wait for both (performance only).
-                if (to_left <= to_right) {
-                    stack[depth++] = {right, to_right};
-                    at = {left, to_left};
-                } else {
-                    stack[depth++] = {left, to_left};
-                    at = {right, to_right};
-                }
+                pending nearer{left, bound(left)}, farther{right, bound(right)};
+                if (farther.squared < nearer.squared) std::swap(nearer, farther);
+                stack[depth++] = farther;
+                at = nearer;
             }
         }
         if (found_.size() > most_) drop_farthest();
@@ -154,8 +149,8 @@ class tree_query {
             squared[l] = metric_.squared(at_[0] - x[l], at_[1] - y[l], at_[2] - z[l]);
         const std::size_t size = std::min(squared.size(), tree_.size() - begin);
         std::uint32_t within = 0;  // a mask first: branches would often be predicted wrongly
-        for (std::size_t l = 0; l < squared.size(); l += pack::size)
-            within |= at_most(pack(squared.data() + l), limit_) << l;
+        for (std::size_t l = 0; l < squared.size(); l += slim_pack::size)
+            within |= at_most(slim_pack(squared.data() + l), limit_) << l;
         within &= ~std::uint32_t{0} >> (squared.size() - size);
         for (; within != 0; within &= within - 1) {
             const auto l = static_cast<std::size_t>(std::countr_zero(within));
