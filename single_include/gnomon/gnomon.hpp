@@ -3619,6 +3619,7 @@ class tree_query {
                     break;
                 }
                 const auto [left, right] = at.node.children();
+                // An exchange takes less time than a choice by copies (performance only).
                 pending nearer{left, bound(left)}, farther{right, bound(right)};
                 if (farther.squared < nearer.squared) std::swap(nearer, farther);
                 stack[depth++] = farther;

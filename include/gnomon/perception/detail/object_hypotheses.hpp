@@ -98,7 +98,7 @@ inline constexpr angle turn_of_one = degrees(5.0);  // chosen: as wide at 35 cm 
     return best;
 }
 
-/// Aligns an object roughly from a start next to its pose. None if it returns there, as most do.
+/// Aligns an object roughly from a start next to its pose. None if it returns to that pose.
 [[nodiscard]] inline std::optional<found_object> aligned_elsewhere(const scene_evidence& scene,
                                                                    const found_object& best,
                                                                    const rigid_motion& start,
