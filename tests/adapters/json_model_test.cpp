@@ -295,6 +295,31 @@ TEST(json_model, broken_files_are_refused_with_their_place) {
     EXPECT_THROW(static_cast<void>(rec::read_model(model_file("missing"))), gnomon::error);
 }
 
+/// A model that could not be read again is not written.
+TEST(json_model, what_would_be_refused_is_not_written) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::string path = model_file("unreadable");
+    std::filesystem::remove(path);
+    const auto expect_refusal = [&](const auto& model, const char* place) {
+        try {
+            rec::write_model(path, model);
+            ADD_FAILURE() << place;
+        } catch (const gnomon::error& problem) {
+            EXPECT_NE(std::string(problem.what()).find(place), std::string::npos);
+        }
+        EXPECT_FALSE(std::filesystem::exists(path));
+    };
+    expect_refusal(taught(rec::object_recognizer<>({.min_probability = nan})), "min_probability");
+    expect_refusal(taught(rec::object_recognizer<>({.min_probability = 2.0})), "min_probability");
+    expect_refusal(rec::object_recognizer<>(), "classes");
+    for (const double scale : {nan, 0.0, std::numeric_limits<double>::infinity()}) {
+        rec::object_recognizer empty(
+            {}, boost::hana::append(rec::thesis_features, own_feature{.scale = scale}),
+            rec::no_relations);
+        expect_refusal(empty, "scales/points");
+    }
+}
+
 TEST(json_model, what_cannot_be_written_leaves_the_file_as_it_is) {
     const std::string path = model_file("kept");
     rec::write_model(path, small_model());

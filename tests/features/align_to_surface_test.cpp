@@ -204,6 +204,28 @@ TEST(align_to_surface, covariance_includes_the_noise_of_the_surface) {
     EXPECT_LT(nees / draws, 1.3);
 }
 
+/// View points of the surface that are not finite are unknown.
+TEST(align_to_surface, takes_surfaces_of_unknown_view_points) {
+    const auto map = measure(6000, 0.003, 500, sensor_at(1.6, -0.9, 1.3));
+    auto surface = gnomon::estimate_normals(map.points);
+    for (std::size_t i = 0; i < surface.size(); ++i)
+        if (surface[i].normal.dot(map.points[i]) > 0.0) surface[i].normal *= -1.0;
+    const auto m = measure(1500, 0.003, 7, sensor_at(1.5, -1.0, 1.2));
+    const rigid_motion start = displaced(map.truth.inverse() * m.truth, 0.01, 0.01, false, 7);
+    const auto aligned = [&](const auto& samples) {
+        return gnomon::align_to_surface(m.points, samples, surface, start,
+                                        {.noise = gnomon::constant_noise{0.003},
+                                         .surface_noise = gnomon::constant_noise{0.003}});
+    };
+    const auto expected = aligned(map.points);
+    ASSERT_EQ(expected.status, outcome::converged);
+    const auto found =
+        aligned(gnomon::with_viewpoint(map.points, Eigen::Vector3d::Constant(clouds::nan)));
+    EXPECT_EQ(found.status, outcome::converged);
+    EXPECT_EQ(found.pose.position, expected.pose.position);
+    EXPECT_EQ(found.covariance, expected.covariance);
+}
+
 TEST(align_to_surface, does_not_depend_on_threads) {
     const auto& [samples, index] = the_chair();
     const auto m = measure(5000, 0.005, 3, sensor_at(1.5, -1.0, 1.2));

@@ -196,6 +196,19 @@ TEST(visibility, share_images_of_near_view_points) {
               here.towards(Eigen::Vector3d(3.0, 1.0, 0.0)));
 }
 
+/// One return from far away, whose noise is large, does not make one sensor of two.
+TEST(visibility, share_no_images_for_one_far_return) {
+    constexpr gnomon::quadratic_noise growing{0.001, 0.0, 0.001};
+    clouds::cloud points, from;
+    for (int i = 0; i < 900; ++i) {
+        from.emplace_back(i % 2 == 0 ? 0.0 : 5.0, 0.0, 1.0);
+        points.push_back(from.back() + Eigen::Vector3d(0.001 * i, i == 450 ? 2000.0 : 2.0, 0.0));
+    }
+    const visibility seen(gnomon::with_viewpoints(points, gnomon::viewpoint_table(from)),
+                          {.noise = growing});
+    EXPECT_EQ(seen.images().size(), 2u);
+}
+
 /// Points that are not finite are no sample of the noise.
 TEST(visibility, share_images_whatever_is_not_finite) {
     const gnomon::noise_curve tabulated = [](double range) { return 0.01 * range; };

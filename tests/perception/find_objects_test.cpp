@@ -305,6 +305,11 @@ TEST(find_objects, is_uncertain_where_nothing_is) {
             EXPECT_GT(lost.at(0).aligned.covariance(2, 2), 1e5);
         }
     }
+    // On a given ground, whatever is up.
+    const auto lost = finder_of_two().verify(
+        gnomon::scan{}, places, {.ground = gnomon::plane{Eigen::Vector3d::UnitY(), 0.0}});
+    EXPECT_GT(lost.at(0).aligned.covariance(5, 5), 1e5);
+    EXPECT_EQ(lost.at(0).aligned.covariance(4, 4), 0.0);
 }
 
 TEST(find_objects, refuses_bad_arguments) {
@@ -327,6 +332,15 @@ TEST(find_objects, refuses_bad_arguments) {
                  std::invalid_argument);
     finder = rec::object_finder();
     EXPECT_THROW(finder.add("nothing", {}), std::invalid_argument);
+    const auto samples = sim::sample_surface(chair_and_table()[0], {.spacing = 0.02});
+    const auto moved = [&](double lower, double spacing) {
+        return rec::surface_model(
+            samples, samples, spacing, std::nullopt, [&](const sim::surface_sample& s) {
+                return Eigen::Vector3d(s.position - Eigen::Vector3d(0, 0, lower));
+            });
+    };
+    EXPECT_THROW(finder.add("chair", moved(0.4, 0.02)), std::invalid_argument);  // in its middle
+    EXPECT_THROW(finder.add("chair", moved(0.0, 20.0)), std::invalid_argument);  // in millimetres
     EXPECT_THROW(finder.add("", finder_of_two().surfaces()[0]), std::invalid_argument);
     EXPECT_THROW(finder.add(std::string(rec::background_name), finder_of_two().surfaces()[0]),
                  std::invalid_argument);
@@ -336,6 +350,13 @@ TEST(find_objects, refuses_bad_arguments) {
     for (const double p : {-0.1, 1.1, nan})
         EXPECT_THROW(static_cast<void>(finder_of_two()(gnomon::scan{}, {.min_probability = p})),
                      std::invalid_argument);
+    for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0, nan, 1)}) {
+        EXPECT_THROW(static_cast<void>(finder_of_two()(gnomon::scan{}, {.up = up})),
+                     std::invalid_argument);
+        EXPECT_THROW(
+            static_cast<void>(finder_of_two()(gnomon::scan{}, {.ground = gnomon::plane{up, 0.0}})),
+            std::invalid_argument);
+    }
     for (const double width : {-0.1, 91.0, nan})
         EXPECT_THROW(
             static_cast<void>(finder_of_two()(gnomon::scan{}, {.divergence = degrees(width)})),

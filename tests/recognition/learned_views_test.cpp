@@ -60,6 +60,7 @@ TEST(learned_views, refuse_what_does_not_fit_together) {
     refuses([](auto& l) { l.temperature = 1e-310; });
     refuses([](auto& l) { l.temperature = std::numeric_limits<double>::infinity(); });
     refuses([](auto& l) { l.options.min_probability = 1.5; });
+    refuses([](auto& l) { l.options.max_word_distance = std::numeric_limits<double>::infinity(); });
     refuses([](auto& l) { l.words[0].mean[0] = std::nan(""); });
     refuses([](auto& l) { l.words[0].count = 0; });
     refuses([](auto& l) { l.words[0].count = std::numeric_limits<std::size_t>::max(); });

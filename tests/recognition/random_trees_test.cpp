@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -158,7 +159,8 @@ TEST(random_trees, refuse_what_they_cannot_grow_on) {
     const auto s = tree_samples(10, 2, 1.0, 11);
     EXPECT_THROW(rec::random_trees(rec::labeled_samples{}, 2), std::invalid_argument);
     EXPECT_THROW(rec::random_trees(s, 1), std::invalid_argument);
-    EXPECT_THROW(rec::random_trees(s, 2, {.trees = 0}), std::invalid_argument);
+    for (const std::size_t trees : {std::size_t{0}, std::numeric_limits<std::size_t>::max()})
+        EXPECT_THROW(rec::random_trees(s, 2, {.trees = trees}), std::invalid_argument);
     rec::labeled_samples no_columns;
     no_columns.add({}, 0);
     EXPECT_THROW(rec::random_trees(no_columns, 1), std::invalid_argument);

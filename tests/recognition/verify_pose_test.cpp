@@ -60,6 +60,18 @@ TEST(verify_pose, supports_true_poses) {
     }
 }
 
+/// Normals that are not finite are missing.
+TEST(verify_pose, needs_no_normals) {
+    const auto& room = the_room();
+    for (const double missing : {0.0, clouds::nan}) {
+        const std::vector<rec::surface_model::oriented> none(room.index.size(),
+                                                             {Eigen::Vector3d::Constant(missing)});
+        const auto v = rec::verify_pose(room.index, none, room.seen, room.chair, room.chair_pose,
+                                        {.noise = room_noise});
+        EXPECT_EQ(v.supported, room.verify(room.chair, room.chair_pose).supported);
+    }
+}
+
 TEST(verify_pose, sees_through_objects_in_empty_space) {
     const auto& room = the_room();
     const auto v = room.verify(room.chair, rigid_motion::on_ground(1.3, -0.2, degrees(30)));

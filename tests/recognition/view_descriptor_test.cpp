@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -148,6 +149,15 @@ TEST(view_descriptor, refuses_features_that_are_not_finite) {
     const rec::view_descriptor bad{boost::hana::make_tuple(some_views::nan_feature{}),
                                    rec::no_relations, false};
     EXPECT_THROW((void)bad(v), std::invalid_argument);
+}
+
+TEST(view_descriptor, refuses_height_profiles_that_are_not_finite) {
+    auto v = some_views::training().views.front();
+    v.rest.levels[6].points = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW((void)default_descriptor(v), std::invalid_argument);
+    v = some_views::training().views.front();
+    v.parts[0].profile.levels[7].uu = std::numeric_limits<double>::infinity();
+    EXPECT_THROW((void)default_descriptor(v), std::invalid_argument);
 }
 
 TEST(view_descriptor, refuses_relations_that_are_not_finite) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -86,6 +88,10 @@ TEST(view_novelty, groups_unknown_views_of_one_kind) {
     for (const auto& [group, size] : sizes) large += size >= 10;
     EXPECT_GE(large, 3u);
     EXPECT_TRUE(novelty.groups_of({}).empty());
+    EXPECT_EQ(novelty.groups_of(views, novelty.typical_distance()), groups);
+    // No limit and any: as many groups as views that differ, and one.
+    EXPECT_EQ(std::ranges::max(novelty.groups_of(views, 0.0)), views.size() - 1);
+    EXPECT_EQ(std::ranges::max(novelty.groups_of(views, 3.0)), 0u);
 }
 
 TEST(view_novelty, learns_a_group_by_a_name) {
@@ -130,6 +136,18 @@ TEST(view_novelty, refuses_recognizers_that_are_not_fitted_and_views_without_gro
     airborne.ground.reset();
     EXPECT_THROW((void)without_shelves()(airborne), std::invalid_argument);
     EXPECT_THROW((void)without_shelves().groups_of({&airborne, 1}), std::invalid_argument);
+    for (const double limit : {-0.1, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW((void)without_shelves().groups_of(some_views::fresh().views, limit),
+                     std::invalid_argument);
+}
+
+/// Nothing is novel to views that cannot be compared with those of another scan.
+TEST(view_novelty, refuses_recognizers_of_one_scan) {
+    auto learned = without_shelves().model().learned();
+    for (std::uint32_t& s : learned.sources) s = 0;
+    rec::object_recognizer<> model;
+    model.restore(std::move(learned));
+    EXPECT_THROW(rec::view_novelty(std::move(model)), std::invalid_argument);
 }
 
 /// Sources of a file may all belong to the same fold: then no view was left out.

@@ -147,7 +147,8 @@ TEST(preprocess, finds_the_floor_of_a_small_cloud_with_outliers) {
     ASSERT_TRUE(floor);
     EXPECT_NEAR(floor->offset, 0.0, 1e-9);
     for (const Eigen::Vector3d& bad :
-         {Eigen::Vector3d(clouds::nan, 1, 0), Eigen::Vector3d(0, clouds::infinity, 0)})
+         {Eigen::Vector3d(clouds::nan, 1, 0), Eigen::Vector3d(0, clouds::infinity, 0),
+          Eigen::Vector3d(1e200, 0, 0)})
         points.push_back(bad);
     EXPECT_EQ(gnomon::find_floor(points).value().offset, floor->offset);
 }

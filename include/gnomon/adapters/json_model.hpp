@@ -57,8 +57,9 @@ void require_usable(const json_place& file, const Recognizer& made,
     options["min_probability"].require(
         c.options.min_probability >= 0.0 && c.options.min_probability <= 1.0,
         "must be from 0 to 1");
-    options["max_word_distance"].require(c.options.max_word_distance >= 0.0,
-                                         "must not be negative");
+    options["max_word_distance"].require(
+        c.options.max_word_distance >= 0.0 && std::isfinite(c.options.max_word_distance),
+        "must be finite and not negative");
     file["temperature"].require(c.temperature > 0.0, "must be positive");
     double weights = 0.0;
     for (const double w : feature_weights(made.descriptor().features)) weights += w;
@@ -100,7 +101,9 @@ void require_usable(const json_place& file, const Recognizer& made,
 
 /// Writes what a recognizer has learned, atomically: a file of that name is replaced or stays as it
 /// is.
-/// @throws gnomon::error          with the operating system's message
+/// @throws gnomon::error          with the operating system's message; or for less than two classes
+///                                or numbers that are not finite or contradict each other, which
+///                                read_model() would refuse, with their place
 /// @throws std::invalid_argument  if two features or two relations have the same name, a class name
 ///                                is not UTF-8, or a sample is not in single precision, as
 ///                                restore() may have left it
@@ -113,6 +116,12 @@ void write_model(const std::string& path, const object_recognizer<Features, Rela
     auto learned = model.learned();
     for (double& x : learned.samples.values) x = detail::with_few_digits(x);
     detail::write_fields(file, learned);
+    Features features = model.descriptor().features;
+    Relations relations = model.descriptor().relations;
+    const detail::json_place place(path, file);
+    detail::read_policies(place, "features", features);
+    detail::read_policies(place, "relations", relations);
+    detail::require_usable(place, model, learned);
     std::string text;
     try {
         text = file.dump(-1, ' ', false, detail::json::error_handler_t::strict) + "\n";

@@ -26,10 +26,12 @@ struct plane {
 namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
-inline void require_hesse(const plane& p) {
+inline void require_hesse(
+    const plane& p,
+    const char* message =
+        "a plane, or a direction upwards, needs a normal of unit length and a finite offset") {
     constexpr double rounding = 1e-6;  // numerical
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
-            "a plane, or a direction upwards, needs a normal of unit length and a finite offset");
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset), message);
 }
 
 }  // namespace detail

@@ -3,16 +3,25 @@
 /// Aligns points to a surface, to register scans or to fit a model to what a sensor sees of it:
 ///
 ///     const gnomon::spatial_index map(first_scan);
-///     const auto surface = gnomon::estimate_normals(map);
+///     auto surface = gnomon::estimate_normals(map);
+///     gnomon::orient_normals(first_scan, surface);
 ///     const auto found = gnomon::align_to_surface(second_scan, map, surface, start,
 ///                                                 {.noise = noise, .surface_noise = noise});
-///     if (found.is_usable()) use(found.pose, found.covariance);
+///     if (found.is_usable() && 2 * found.inliers > found.points) use(found.pose,
+///     found.covariance);
+///
+/// It is local: a start that is too far off ends at another pose, whose covariance is as small.
+/// From 20 cm and 5 degrees off, all of 8 scans of rooms were registered with a `max_distance` of
+/// 30 cm; from 30 cm and 10 degrees 6 of 8 with 60 cm, and none with the default. There 64 % of the
+/// points and more were inliers; at wrong poses mostly less than a third, but up to 69 %.
 ///
 /// Iterative closest points with the distance from the tangent plane (Chen and Medioni 1992), by
 /// Gauss and Newton's method. Residuals count in deviations of their noise with Tukey's biweight
 /// (Holland and Welsch 1977), whose scale is that of their median until it is that of the noise.
 /// The normal of the surface at a point is interpolated between the samples next to it. Large
 /// clouds are first aligned by a sample of them.
+///
+/// In no umbrella: include it by name.
 #pragma once
 
 #include <cstddef>

@@ -2,6 +2,8 @@
 /// @file
 /// The pose of points on a surface with its covariance: the result of `align_to_surface`, and its
 /// options.
+///
+/// In no umbrella: include it by name.
 #pragma once
 
 #include <cstddef>
@@ -46,9 +48,10 @@ struct alignment_options {
                 "align_to_surface: max_distance must be positive and finite");
         require(last_distance > 0.0 && last_distance <= max_distance,
                 "align_to_surface: last_distance must be positive, at most max_distance");
-        for (const angle a : {normal_noise, max_angle})
-            require(a >= degrees(0.0) && a <= degrees(90.0),
-                    "align_to_surface: an angle must be from 0 to 90 degrees");
+        const auto is_acute = [](angle a) { return a >= degrees(0.0) && a <= degrees(90.0); };
+        require(is_acute(normal_noise),
+                "align_to_surface: normal_noise must be from 0 to 90 degrees");
+        require(is_acute(max_angle), "align_to_surface: max_angle must be from 0 to 90 degrees");
         require(max_iterations > 0, "align_to_surface: requires an iteration");
     }
 };
@@ -88,7 +91,8 @@ struct alignment {
     double rms = 0.0;            ///< root mean square distance of inliers from the surface [m]
     int iterations = 0;          ///< on all points
 
-    /// Whether all that was free to move is known.
+    /// Whether all that was free to move is known. From a start that is far off, it may be the pose
+    /// of a wrong minimum: see align_to_surface().
     [[nodiscard]] bool is_usable() const { return status == outcome::converged; }
 
     /// The same alignment seen from the other side: `pose` is that of the surface in the frame of

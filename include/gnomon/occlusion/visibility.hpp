@@ -107,7 +107,7 @@ class visibility {
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
     /// equally many free space, then on surface, then occluded. Where there were none, it is out
-    /// of view if it is so from most of them. O(view points).
+    /// of view if it is so from most of them. Precondition: the place is finite. O(view points).
     template <class Place = Eigen::Vector3d>  // so that only its users compile it
     [[nodiscard]] observation towards(const Place& place) const {
         observation_count count;
@@ -161,17 +161,19 @@ class visibility {
                     pixel_);
     }
 
-    /// The root mean square of the standard deviations of the ranges [m].
+    /// The median of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
-        double sum = 0.0, count = 0.0;
+        detail::scratch<double> deviations;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
             const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
             if (!detail::all_finite(way)) continue;
-            sum += noise_.variance_along(way);
-            count += 1.0;
+            deviations.push_back(noise_.along(way));
         }
-        return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+        if (deviations.empty()) return 0.0;
+        const auto median = deviations.begin() + std::ssize(deviations) / 2;
+        std::nth_element(deviations.begin(), median, deviations.end());
+        return *median;
     }
 
     /// What one view point has seen there.

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Finds objects in a scan of a whole room, with their places, although they touch others or are
-/// half hidden. Groups of points, as in perceive_views(), have parts, but none is one object: parts
-/// vote for objects and places, and in the points that the objects found by votes leave, the
-/// surface of each object is compared with a grid of places. Each such hypothesis is aligned with
-/// the points and verified by what the sensor saw, by samples of its surface and by its silhouette,
-/// and hypotheses compete for points.
+/// half hidden. Parts of groups of points, as in perceive_views(), vote for objects and places, and
+/// in the points that the objects found by votes leave, the surface of each object is compared with
+/// a grid of places. Each such hypothesis is aligned with the points and verified by what the
+/// sensor saw, by samples of its surface and by its silhouette, and hypotheses compete for points.
 ///
 ///     namespace rec = gnomon::recognition;
 ///     rec::object_finder finder;
 ///     const std::size_t chair = finder.add("chair", surface_model_of_chair);
 ///     for (const auto& [view, pose] : views_of_chair) finder.learn(view, pose, chair);
-///     ...
 ///     finder.fit(gnomon::threads{});
 ///     for (const rec::found_object& o : finder(scan, {.noise = noise}).objects)
 ///         use(finder.names()[o.object], o.aligned.pose, o.probability);
@@ -40,6 +38,7 @@
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/known_objects.hpp>
 #include <gnomon/perception/detail/object_competition.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
 #include <gnomon/perception/detail/scene_evidence.hpp>
@@ -69,15 +68,10 @@ class object_finder {
     /// @param surface  with samples that are at most 3 cm apart
     /// @return its number
     /// @throws std::invalid_argument  if it has no name, or that of background, or its surface no
-    ///                                samples
+    ///                                samples, too few, or some that are more than 10 cm below the
+    ///                                ground
     std::size_t add(std::string name, surface_model surface) {
-        using gnomon::detail::require;
-        require(!name.empty(), "object_finder: an object needs a name");
-        require(name != background_name, "object_finder: an object has the name of background");
-        require(surface.points().size() > 0, "object_finder: the surface has no samples");
-        names_.push_back(std::move(name));
-        surfaces_.push_back(std::move(surface));
-        return names_.size() - 1;
+        return objects_.add(std::move(name), std::move(surface));
     }
 
     /// Stores the parts of a view of an object, as perceive_views() sees them.
@@ -96,9 +90,10 @@ class object_finder {
     /// and do not vote. Views that vote cost time in operator(), these hardly any.
     /// @throws std::invalid_argument  as above
     void learn(const view& v, std::size_t object) {
-        gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
+        gnomon::detail::require(object < objects_.names.size(),
+                                "object_finder: there is no such object");
         part_votes<>().learn(v, {}, object);  // likewise
-        recognizer_.learn(v, names_[object]);
+        recognizer_.learn(v, objects_.names[object]);
         is_fitted_ = false;
     }
 
@@ -110,7 +105,7 @@ class object_finder {
         is_fitted_ = false;
     }
 
-    /// Fits the recognizer of parts, to be called after all views are learned.
+    /// Fits the recognizer of parts, after all views are learned.
     /// @param run  the result does not depend on it
     /// @throws std::invalid_argument  if views of one name or none (background is one) were learned
     /// Complexity: that of object_recognizer::fit().
@@ -123,9 +118,9 @@ class object_finder {
     }
 
     /// The names of the objects, by their numbers.
-    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+    [[nodiscard]] const std::vector<std::string>& names() const { return objects_.names; }
     /// Their surfaces, likewise.
-    [[nodiscard]] const std::vector<surface_model>& surfaces() const { return surfaces_; }
+    [[nodiscard]] const std::vector<surface_model>& surfaces() const { return objects_.surfaces; }
 
     /// Finds objects.
     /// @param points  any point range of n points [m]; seen from the origin without view points
@@ -146,10 +141,10 @@ class object_finder {
         result.seen = in_scene(points, options, team, projection, [&](const scene_of& at) {
             std::vector<std::int32_t> of_cell;
             result.objects = detail::objects_in(
-                at.scene, surfaces_, options.min_probability,
+                at.scene, objects_.surfaces, options.min_probability,
                 [&](found_object& h) { recognize(at.scene, h); }, of_cell, team);
-            detail::settle(result.objects, at.scene, surfaces_, team);
-            detail::unite(result.objects, of_cell, surfaces_);
+            detail::settle(result.objects, at.scene, objects_.surfaces, team);
+            detail::unite(result.objects, of_cell, objects_.surfaces);
             std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
             for (std::size_t i = 0; i < at.points.size(); ++i)
                 labels[at.points[i]] = of_cell[at.cells.of_point[i]];
@@ -177,18 +172,20 @@ class object_finder {
         using gnomon::detail::require;
         std::vector<found_object> result(places.size());
         for (std::size_t i = 0; i < places.size(); ++i) {
-            require(places[i].object < names_.size(), "object_finder: there is no such object");
+            require(places[i].object < objects_.names.size(),
+                    "object_finder: there is no such object");
             require(is_rigid(places[i].pose), "object_finder: the pose is no rigid motion");
-            result[i] = detail::unaligned(places[i], surfaces_[places[i].object], options.up);
+            result[i] = detail::unaligned(places[i], objects_.surfaces[places[i].object],
+                                          options.ground ? options.ground->normal : options.up);
         }
         const auto& team = gnomon::detail::staying(run);
         (void)in_scene(points, options, team, projection, [&](const scene_of& at) {
             team(places.size(), [&](std::size_t i) {
                 found_object& h = result[i];
-                h = detail::aligned_at(at.scene, places[i], surfaces_);
+                h = detail::aligned_at(at.scene, places[i], objects_.surfaces);
                 recognize(at.scene, h);
                 if (h.probability >= detail::scene_evidence::worth)
-                    h.aligned = at.scene.refined(h.aligned, surfaces_[h.object]);
+                    h.aligned = at.scene.refined(h.aligned, objects_.surfaces[h.object]);
             });
         });
         return result;
@@ -208,7 +205,8 @@ class object_finder {
     [[nodiscard]] perceived_views in_scene(const R& points, const find_objects_options& options,
                                            const auto& team, Proj projection, const auto& f) const {
         options.require_valid();
-        gnomon::detail::require(is_fitted_ || names_.empty(), "object_finder: fit() it first");
+        gnomon::detail::require(is_fitted_ || objects_.names.empty(),
+                                "object_finder: fit() it first");
         const noise_curve noise = detail::noise_of(points, options.noise, team, projection);
         perceived_views seen = perceive_views(points,
                                               {.ground = options.ground,
@@ -219,7 +217,7 @@ class object_finder {
         std::vector<point_index> kept;
         for (std::size_t i = 0; i < seen.groups.labels().size(); ++i)
             if (seen.groups.labels()[i] != unlabeled) kept.push_back(static_cast<point_index>(i));
-        if (kept.empty() || !seen.ground || names_.empty()) return seen;
+        if (kept.empty() || !seen.ground || objects_.names.empty()) return seen;
         auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                     {.edge = perceive_views_options{}.cell}, team);
         if (cells.viewpoints.empty()) cells.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
@@ -237,14 +235,13 @@ class object_finder {
     }
 
     void recognize(const detail::scene_evidence& scene, found_object& h) const {
-        scene.recognize(h, surfaces_[h.object], recognizer_, names_[h.object]);
+        scene.recognize(h, objects_.surfaces[h.object], recognizer_, objects_.names[h.object]);
     }
 
     part_votes<> votes_;
     object_recognizer<> recognizer_;  // by the names of the objects
     bool is_fitted_ = false;
-    std::vector<std::string> names_;
-    std::vector<surface_model> surfaces_;
+    detail::known_objects objects_;
 };
 
 }  // namespace gnomon::recognition

@@ -41,11 +41,16 @@ struct find_objects_options {
     /// probable than not.
     double min_probability = 0.5;
 
-    /// @throws std::invalid_argument  unless the probability is from 0 to 1 and the divergence is
-    ///                                from 0 to 90 degrees
+    /// @throws std::invalid_argument  unless the probability is from 0 to 1, the divergence from 0
+    ///                                to 90 degrees, and the directions are of unit length
     void require_valid() const {
+        using gnomon::detail::require_hesse;
         gnomon::detail::require(min_probability >= 0.0 && min_probability <= 1.0,
-                                "find_objects: a probability is from 0 to 1");
+                                "find_objects: min_probability must be from 0 to 1");
+        require_hesse({up, 0.0}, "find_objects: up must be of unit length");
+        if (ground)
+            require_hesse(*ground,
+                          "find_objects: ground needs a normal of unit length and an offset");
         silhouette_options{.divergence = divergence}.require_valid();
     }
 };

@@ -68,8 +68,8 @@ struct learned_views {
         require(std::is_sorted(sources.begin(), sources.end()) &&
                     sources.back() < std::numeric_limits<std::uint32_t>::max(),
                 "object_recognizer: sources must be ascending, and leave a number for the next");
-        require(options.max_word_distance >= 0.0,
-                "object_recognizer: max_word_distance must not be negative or NaN");
+        require(options.max_word_distance >= 0.0 && std::isfinite(options.max_word_distance),
+                "object_recognizer: max_word_distance must be finite and not negative");
         require(options.min_probability >= 0.0 && options.min_probability <= 1.0,
                 "object_recognizer: min_probability must be in [0, 1]");
         for (std::size_t c = 0; c < names.size(); ++c)

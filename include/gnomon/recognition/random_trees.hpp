@@ -39,11 +39,13 @@ class random_trees {
     template <execution X = sequential>
     random_trees(const labeled_samples& samples, std::size_t classes,
                  const random_trees_options& options = {}, const X& run = {})
-        : classes_(classes), trees_(options.trees) {
+        : classes_(classes) {
         using gnomon::detail::require;
         require(samples.rows() > 0 && samples.columns > 0, "random_trees: there are no samples");
         samples.require_valid(classes);
-        require(options.trees > 0, "random_trees: there must be trees");
+        require(options.trees > 0 && options.trees <= trees_.max_size(),
+                "random_trees: there must be trees, and no more than fit into memory");
+        trees_.resize(options.trees);
         run(options.trees, [&](std::size_t t) {
             detail::tree_grower(samples, options, random_stream(options.seed, t), trees_[t])
                 .grow(classes);

@@ -12,6 +12,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/recognition/height_profile.hpp>
 #include <gnomon/recognition/part_feature.hpp>
 #include <gnomon/recognition/part_relation.hpp>
@@ -65,6 +66,7 @@ struct view_descriptor {
 
     /// The description of some parts of a view, largest first.
     /// @param has_rest  whether the points that belong to no part count
+    /// @throws std::invalid_argument  if the height profile counts and is not finite
     [[nodiscard]] std::vector<double> describe(const view& v, const measured& m,
                                                std::span<const std::size_t> chosen,
                                                bool has_rest) const {
@@ -152,7 +154,10 @@ struct view_descriptor {
     /// of height: of legs, seats, tables, backs, and shelves.
     static void describe_profile(const height_profile& profile, std::vector<double>& d) {
         constexpr std::size_t n = height_profile::count;
-        const double total = profile.band(0, n).points;
+        const height_profile::level all = profile.band(0, n);
+        for (const double sum : {all.points, all.u, all.v, all.uu, all.uv, all.vv})
+            gnomon::detail::require(std::isfinite(sum), "a height profile is not finite");
+        const double total = all.points;
         for (const auto& level : profile.levels)
             d.push_back(total > 0.0 ? std::sqrt(level.points / total) : absent);
         for (const double quantile : {0.1, 0.5, 0.9, 0.995}) {
@@ -166,7 +171,7 @@ struct view_descriptor {
             const auto extent = detail::horizontal_extent(profile.band(bands[b], bands[b + 1]));
             d.insert(d.end(), extent.begin(), extent.end());
         }
-        const auto extent = detail::horizontal_extent(profile.band(0, n));
+        const auto extent = detail::horizontal_extent(all);
         d.insert(d.end(), extent.begin(), extent.end());
     }
 };

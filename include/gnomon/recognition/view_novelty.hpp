@@ -42,13 +42,15 @@ template <class Recognizer = object_recognizer<>>
 class view_novelty {
   public:
     /// @param model  a copy is kept; views of the class `background_name` are known as well
-    /// @throws std::invalid_argument  if the recognizer is not fitted
+    /// @throws std::invalid_argument  if the recognizer is not fitted, or on views of one scan
     /// Complexity: that of the trees, four times, and O(n^2) for n learned views.
     template <execution X = sequential>
     explicit view_novelty(Recognizer model, const X& run = {}) : model_(std::move(model)) {
         gnomon::detail::require(model_.trees().classes() > 0,
                                 "view_novelty: the recognizer must be fitted first");
         const auto& learned = model_.learned();
+        gnomon::detail::require(learned.sources.front() != learned.sources.back(),
+                                "view_novelty: the recognizer has views of one scan only");
         const auto& team = gnomon::detail::staying(run);
         weigh_columns();
         const auto left_out = detail::left_out_log_probabilities(
@@ -63,7 +65,7 @@ class view_novelty {
             known_[k] = score(left_out[i], learned.samples.row(i), learned.sources[i]);
         });
         std::sort(known_.begin(), known_.end());
-        typical_ = typical_distance();
+        typical_ = median_distance();
     }
 
     [[nodiscard]] const Recognizer& model() const { return model_; }  ///< the copy
@@ -87,17 +89,30 @@ class view_novelty {
         return distance_of(model_.described(a), model_.described(b));
     }
 
+    /// The median distance() of learned views of one class. O(1).
+    [[nodiscard]] double typical_distance() const { return typical_; }
+
     /// Groups views by average linkage, as long as groups are no farther apart than learned views
-    /// of one class usually are.
+    /// of one class usually are: rather several groups of one class than one of two.
     /// @return the number of the group of each view, in the order of their first views
     /// Errors: as above. Complexity: O(n^2), and as much memory.
     [[nodiscard]] std::vector<std::size_t> groups_of(std::span<const view> views) const {
+        return groups_of(views, typical_distance());
+    }
+
+    /// The same with another limit: larger ones make fewer and larger groups.
+    /// @param limit  the largest distance of groups, the mean of those of their views
+    /// @throws std::invalid_argument  as above, or if the limit is negative or NaN
+    [[nodiscard]] std::vector<std::size_t> groups_of(std::span<const view> views,
+                                                     double limit) const {
+        gnomon::detail::require(limit >= 0.0,
+                                "view_novelty: the limit must not be negative or NaN");
         std::vector<std::vector<double>> described;
         for (const view& v : views) described.push_back(model_.described(v));
         return average_linkage(
             views.size(),
             [&](std::size_t i, std::size_t j) { return distance_of(described[i], described[j]); },
-            typical_);
+            limit);
     }
 
   private:
@@ -144,7 +159,7 @@ class view_novelty {
 
     /// The median distance of learned views of one class and of different scans, of some pairs.
     /// (Chosen as the numbers of score(): larger quantiles join classes.)
-    [[nodiscard]] double typical_distance() const {
+    [[nodiscard]] double median_distance() const {
         constexpr std::size_t most = 20'000;  // performance only
         const auto& learned = model_.learned();
         random_stream random(0);

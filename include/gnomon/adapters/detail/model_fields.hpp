@@ -98,8 +98,9 @@ void read_policies(const json_place& file, const char* list, auto& policies) {
             file[numbers][name].read(value);
             if constexpr (!std::same_as<std::remove_cvref_t<decltype(value)>, bool>) {
                 const bool is_scale = std::string_view(numbers) == "scales";
-                file[numbers][name].require(value > 0.0 || (value == 0.0 && !is_scale),
-                                            is_scale ? "must be positive" : "must not be negative");
+                file[numbers][name].require(
+                    std::isfinite(value) && (value > 0.0 || (value == 0.0 && !is_scale)),
+                    is_scale ? "must be finite and positive" : "must be finite, not negative");
             }
         });
     });

@@ -197,10 +197,10 @@ class matched_surface {
         match.of_point = p.variance * c * c;
         match.of_sample = 0.0;
         if (!options_.surface_noise.is_zero()) {
-            const Eigen::Vector3d way = difference(q, samples_.viewpoints[match.sample]);
-            const double s = samples_.viewpoints.empty() || !has_length(way)
-                                 ? 1.0
-                                 : dot(mean, direction_of(way));
+            const Eigen::Vector3d v = samples_.viewpoints[match.sample];
+            const bool is_seen = !samples_.viewpoints.empty() && is_finite(v);
+            const Eigen::Vector3d way = is_seen ? difference(q, v) : q;
+            const double s = is_seen && has_length(way) ? dot(mean, direction_of(way)) : 1.0;
             match.of_sample = options_.surface_noise.variance_along(way) * s * s;
         }
         match.variance = p.variance * std::max(c * c, oblique * oblique) + match.of_sample;

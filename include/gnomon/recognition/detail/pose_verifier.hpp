@@ -167,7 +167,7 @@ class pose_verifier {
             const double off =
                 gnomon::detail::dot(normal, gnomon::detail::difference(index_[q.index], at));
             return std::abs(off) <= across &&
-                   (is_missing(n) || std::abs(gnomon::detail::dot(n, normal)) >= least_cosine_);
+                   (is_missing(n) || !(std::abs(gnomon::detail::dot(n, normal)) < least_cosine_));
         });
     }
 

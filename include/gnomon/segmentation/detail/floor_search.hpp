@@ -126,7 +126,7 @@ class floor_search {
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Eigen::Vector3d p = points[i];
             const double d = std::abs(about.signed_distance(p));
-            if (!(d <= band) || !all_finite(p)) continue;
+            if (!(d <= band) || !is_finite(p)) continue;
             if (m.count == 0) origin = p;
             m.add(difference(p, origin));
             distances_.push_back(d);
@@ -165,7 +165,7 @@ class floor_search {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             const double d = fit.plane.signed_distance(p);
-            if (!all_finite(p) || d > bands * fit.band) continue;
+            if (!is_finite(p) || d > bands * fit.band) continue;
             if (d < -bands * fit.band) {
                 below += 1.0;
                 continue;
