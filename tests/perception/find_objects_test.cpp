@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -250,6 +251,15 @@ TEST(find_objects, finds_an_object_without_views) {
     ASSERT_EQ(found.objects.size(), 1u);
     EXPECT_EQ(found.objects[0].object, number);
     EXPECT_LT((found.objects[0].aligned.pose.position - where.position).norm(), 0.02);
+    // Its heading is anything, and its place is known, whatever point it turns about.
+    const auto& aligned = found.objects[0].aligned;
+    const auto c = aligned.covariance_about(aligned.pose.position);
+    EXPECT_NEAR(std::sqrt(c(2, 2)), std::numbers::pi / std::sqrt(3.0), 1e-9);
+    for (const int axis : {0, 1}) {
+        const double deviation = std::sqrt(c(3 + axis, 3 + axis));
+        EXPECT_LT(deviation, 0.003);
+        EXPECT_LT(std::abs(aligned.pose.position[axis] - where.position[axis]), 3.0 * deviation);
+    }
     // Less probable objects, for which its parts vote, take no cells from it.
     const auto more = finder(truth.scan, {.noise = find_noise, .min_probability = 0.0});
     ASSERT_GE(more.objects.size(), 1u);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -249,19 +250,32 @@ TEST(ground_motions, are_along_the_axes_of_the_covariance) {
     EXPECT_GT((turned.rotation - found.pose.rotation).norm(), 0.01);
 }
 
-/// A surface of revolution does not turn, and its unknown turn stays unknown.
+/// A surface of revolution does not turn: however uncertain a turn about its axis is, shifts are as
+/// certain as at one heading, and so is the place of its axis at any heading.
 TEST(ground_motions, of_a_surface_of_revolution_are_shifts) {
     const auto round = sampled_surface(sim::furniture_models()[8]);
     ASSERT_EQ(round.symmetry().order, rec::vertical_symmetry::any_turn);
     auto found = aligned_off(0.0);
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) found.covariance(i, j) = 1e6 * upwards[i] * upwards[j];
+    const Eigen::Vector3d axis =
+        found.pose.point_out({round.symmetry().x, round.symmetry().y, 0.0});
+    found.center = axis + Eigen::Vector3d(-0.3, 0.1, 0.4);
+    Eigen::Matrix<double, 6, 1> turn;  // about the axis
+    turn << upwards, upwards.cross(found.center - axis);
+    found.covariance = 1e6 * turn * turn.transpose();
+    found.covariance(3, 3) += 1e-4;
+    found.covariance(4, 4) += 1e-6;
     const rec::detail::ground_motions motions(found, round, upwards);
+    EXPECT_NEAR(motions.variances()[0], 1e-4, 1e-9);
+    EXPECT_NEAR(motions.variances()[1], 1e-6, 1e-9);
     EXPECT_NEAR(motions.variances()[2], 0.0, 1e-9);
     const Eigen::Vector3d known(1e-4, 1e-6, 0.0);
-    const auto a = motions.after({0.0, 0.0, 0.0}, known.asDiagonal());
-    EXPECT_NEAR(a.covariance(2, 2), 1e6, 1.0);
-    EXPECT_NEAR(a.covariance(3, 3) + a.covariance(4, 4) + a.covariance(5, 5), 1.01e-4, 1e-9);
+    for (const auto& a : {motions.after({0.0, 0.0, 0.0}, known.asDiagonal()), motions.unmoved()}) {
+        const auto c = a.covariance_about(axis);
+        EXPECT_NEAR(c(2, 2), std::numbers::pi * std::numbers::pi / 3.0, 1e-9);
+        EXPECT_NEAR(c(3, 3), 1e-4, 1e-9);
+        EXPECT_NEAR(c(4, 4), 1e-6, 1e-9);
+        EXPECT_NEAR(c(5, 5), 0.0, 1e-9);
+    }
 }
 
 }  // namespace

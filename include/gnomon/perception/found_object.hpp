@@ -73,7 +73,8 @@ struct found_object {
     std::size_t object = 0;  ///< its number
     /// The pose of its frame in that of the scan, where center and covariance are, too. Outcome,
     /// determined directions and inliers are those of its faces; where these leave it free to
-    /// slide, pose and covariance come from its silhouette.
+    /// slide, pose and covariance come from its silhouette. A surface of revolution has any
+    /// heading, with the variance of that, about its axis.
     alignment aligned;
     /// What the scan shows of it, before its pose was refined by whole beams and silhouette.
     verification evidence;

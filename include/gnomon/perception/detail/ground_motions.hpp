@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numbers>
 
 #include <Eigen/Core>
 
@@ -37,12 +38,10 @@ class ground_motions {
           first_(gnomon::detail::direction_of(gnomon::detail::orthogonal(up))),
           second_(gnomon::detail::cross(up, first_)),
           half_(half_of_mean_side(model)) {
-        Eigen::Matrix3d c = Eigen::Matrix3d::Zero();
-        // A surface of revolution does not turn.
-        const int first = model.symmetry().order == vertical_symmetry::any_turn ? 1 : 0;
-        for (int i = first; i < 3; ++i)
-            for (int j = first; j < 3; ++j) c(i, j) = covariance_of(i, j);
-        if (first == 1) turn_variance_ = covariance_of(0, 0);
+        Eigen::Matrix3d c;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) c(i, j) = covariance_of(i, j);
+        if (model.symmetry().order == vertical_symmetry::any_turn) hold_turn(c, model.symmetry());
         const auto eigen = gnomon::detail::symmetric_eigen(c);
         axes_ = eigen.vectors;
         variances_ = eigen.values;
@@ -71,8 +70,8 @@ class ground_motions {
         moved.pose = pose_after(m);
         const Eigen::Vector3d d = gnomon::detail::product(axes_, m);
         moved.center = gnomon::detail::combined(1.0, found_.center, d[1], first_, d[2], second_);
-        Eigen::Matrix3d c = axes_ * covariance * axes_.transpose();
-        c(0, 0) += turn_variance_;
+        const Eigen::Matrix3d c = axes_ * covariance * axes_.transpose() +
+                                  turn_variance_ * about_axis_ * about_axis_.transpose();
         for (int i = 0; i < 6; ++i) {
             for (int j = 0; j < 6; ++j) {
                 double sum = 0.0;
@@ -84,7 +83,31 @@ class ground_motions {
         return moved;
     }
 
+    /// The alignment without a motion; of a surface of revolution with any heading.
+    [[nodiscard]] alignment unmoved() const {
+        const bool has_axis = about_axis_[0] > 0.0;
+        return has_axis ? after({0.0, 0.0, 0.0}, variances_.asDiagonal()) : found_;
+    }
+
   private:
+    /// Leaves out turns: a surface of revolution is the same after any turn about its axis, and has
+    /// any heading. Shifts are as certain as they are at one heading.
+    void hold_turn(Eigen::Matrix3d& c, const vertical_symmetry& symmetry) {
+        constexpr double any = std::numbers::pi * std::numbers::pi / 3.0;  // formula: [rad^2]
+        turn_variance_ = std::min(c(0, 0), any * half_ * half_);
+        if (c(0, 0) > 0.0) {
+            const Eigen::Vector3d with_turn = c.col(0);
+            c -= with_turn * with_turn.transpose() / with_turn[0];
+        }
+        c.row(0).setZero();
+        c.col(0).setZero();
+        const Eigen::Vector3d axis = found_.pose.point_out({symmetry.x, symmetry.y, 0.0});
+        const Eigen::Vector3d shift =
+            gnomon::detail::cross(up_, gnomon::detail::difference(found_.center, axis));
+        about_axis_ = {1.0, gnomon::detail::dot(first_, shift) / half_,
+                       gnomon::detail::dot(second_, shift) / half_};
+    }
+
     /// Component i of the change by a motion of one meter along axis a: of a turn, then a shift.
     [[nodiscard]] double unit(int a, int i) const {
         if (a == 0) return i < 3 ? up_[i] / half_ : 0.0;
@@ -102,6 +125,7 @@ class ground_motions {
     Eigen::Vector3d up_, first_, second_;
     double half_ = 1.0;           // of the mean side [m]: a turn by 1 is as long
     double turn_variance_ = 0.0;  // where a turn is no motion: its variance, as a length [m^2]
+    Eigen::Vector3d about_axis_{0.0, 0.0, 0.0};  // the motion of the center then, by a unit of turn
     Eigen::Matrix3d axes_;
     Eigen::Vector3d variances_;
 };

@@ -151,13 +151,13 @@ class silhouette_fit {
     constexpr double still = 0.01;   // [m]; chosen: a third of a beam at 3 m
     constexpr int most = 3;          // chosen: of far starts the second one is near
     const ground_motions motions(found, model, up);
-    if (!(motions.variances()[0] > known * known)) return found;
+    if (!(motions.variances()[0] > known * known)) return motions.unmoved();
     ground_motions::motion at(0.0, 0.0, 0.0);
     std::optional<silhouette_fit> fit;
     double moved = 2.0 * still;
     for (int round = 0; round < most && moved > still; ++round) {
         fit.emplace(seen, points, noise, divergence, model, motions.pose_after(at));
-        if (!fit->has_rays()) return found;
+        if (!fit->has_rays()) return motions.unmoved();
         const ground_motions::motion next = fit->best(motions, at);
         moved = gnomon::detail::length(gnomon::detail::difference(next, at));
         at = next;
