@@ -41,6 +41,7 @@ OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/neigh
          "gnomon/perception/detail/separated_walls.hpp",
          "gnomon/perception/detail/cells_of_object.hpp", "gnomon/perception/detail/alignment_effort.hpp",
          "gnomon/perception/find_objects.hpp", "gnomon/perception/detail/object_hypotheses.hpp",
+         "gnomon/perception/detail/known_objects.hpp",
          "gnomon/perception/detail/object_competition.hpp", "gnomon/perception/detail/object_probability.hpp",
          "gnomon/perception/detail/observed_space.hpp", "gnomon/perception/detail/pose_search.hpp",
          "gnomon/perception/detail/scene_evidence.hpp", "gnomon/perception/found_object.hpp",

@@ -25,12 +25,14 @@ struct known_objects {
     ///                                samples, too few, or some that are below the ground
     std::size_t add(std::string name, surface_model surface) {
         using gnomon::detail::require;
+        constexpr double most_apart = 0.03;  // [m]; chosen: less than a voxel of a search
+        constexpr double deepest = 0.10;     // [m]; chosen: more than floors are uneven
         require(!name.empty(), "object_finder: an object needs a name");
         require(name != background_name, "object_finder: an object has the name of background");
         require(surface.points().size() > 0, "object_finder: the surface has no samples");
-        require(surface.spacing() <= 0.03,
+        require(surface.spacing() <= most_apart,
                 "object_finder: samples of the surface must be at most 3 cm apart");
-        require(surface.low().z() >= -0.10,
+        require(surface.low().z() >= -deepest,
                 "object_finder: the surface is more than 10 cm below the ground, where z = 0");
         names.reserve(names.size() + 1);  // so that memory cannot lack between the two
         surfaces.push_back(std::move(surface));
