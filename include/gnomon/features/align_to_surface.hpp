@@ -7,8 +7,8 @@
 ///     gnomon::orient_normals(first_scan, surface);
 ///     const auto found = gnomon::align_to_surface(second_scan, map, surface, start,
 ///                                                 {.noise = noise, .surface_noise = noise});
-///     if (found.is_usable() && 2 * found.inliers > found.points) use(found.pose,
-///     found.covariance);
+///     if (found.is_usable() && 2 * found.inliers > found.points)
+///         use(found.pose, found.covariance);
 ///
 /// It is local: a start that is too far off ends at another pose, whose covariance is as small.
 /// From 20 cm and 5 degrees off, all of 8 scans of rooms were registered with a `max_distance` of

@@ -67,9 +67,9 @@ class object_finder {
     /// which no view is learned, by its surface only.
     /// @param surface  with samples that are at most 3 cm apart
     /// @return its number
-    /// @throws std::invalid_argument  if it has no name, or that of background, or its surface no
-    ///                                samples, too few, or some that are more than 10 cm below the
-    ///                                ground
+    /// @throws std::invalid_argument  if it has no name, or that of background, or if its surface
+    ///                                has no samples, or some that are farther apart or more than
+    ///                                10 cm below the ground
     std::size_t add(std::string name, surface_model surface) {
         return objects_.add(std::move(name), std::move(surface));
     }

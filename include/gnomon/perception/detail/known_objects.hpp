@@ -21,8 +21,8 @@ struct known_objects {
 
     /// Adds an object, or nothing if it throws.
     /// @return its number
-    /// @throws std::invalid_argument  if it has no name, or that of background, or its surface no
-    ///                                samples, too few, or some that are below the ground
+    /// @throws std::invalid_argument  if it has no name, or that of background, or if its surface
+    ///                                has no samples, or some too far apart or below the ground
     std::size_t add(std::string name, surface_model surface) {
         using gnomon::detail::require;
         constexpr double most_apart = 0.03;  // [m]; chosen: less than a voxel of a search
