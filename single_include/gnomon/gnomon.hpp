@@ -1260,10 +1260,12 @@ struct plane {
 namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
-inline void require_hesse(const plane& p) {
+inline void require_hesse(
+    const plane& p,
+    const char* message =
+        "a plane, or a direction upwards, needs a normal of unit length and a finite offset") {
     constexpr double rounding = 1e-6;  // numerical
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
-            "a plane, or a direction upwards, needs a normal of unit length and a finite offset");
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset), message);
 }
 
 }  // namespace detail
@@ -15303,7 +15305,7 @@ class floor_search {
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Eigen::Vector3d p = points[i];
             const double d = std::abs(about.signed_distance(p));
-            if (!(d <= band) || !all_finite(p)) continue;
+            if (!(d <= band) || !is_finite(p)) continue;
             if (m.count == 0) origin = p;
             m.add(difference(p, origin));
             distances_.push_back(d);
@@ -15342,7 +15344,7 @@ class floor_search {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             const double d = fit.plane.signed_distance(p);
-            if (!all_finite(p) || d > bands * fit.band) continue;
+            if (!is_finite(p) || d > bands * fit.band) continue;
             if (d < -bands * fit.band) {
                 below += 1.0;
                 continue;
@@ -18106,7 +18108,7 @@ class visibility {
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
     /// equally many free space, then on surface, then occluded. Where there were none, it is out
-    /// of view if it is so from most of them. O(view points).
+    /// of view if it is so from most of them. Precondition: the place is finite. O(view points).
     template <class Place = Eigen::Vector3d>  // so that only its users compile it
     [[nodiscard]] observation towards(const Place& place) const {
         observation_count count;
@@ -18160,17 +18162,19 @@ class visibility {
                     pixel_);
     }
 
-    /// The root mean square of the standard deviations of the ranges [m].
+    /// The median of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
-        double sum = 0.0, count = 0.0;
+        detail::scratch<double> deviations;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
             const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
             if (!detail::all_finite(way)) continue;
-            sum += noise_.variance_along(way);
-            count += 1.0;
+            deviations.push_back(noise_.along(way));
         }
-        return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+        if (deviations.empty()) return 0.0;
+        const auto median = deviations.begin() + std::ssize(deviations) / 2;
+        std::nth_element(deviations.begin(), median, deviations.end());
+        return *median;
     }
 
     /// What one view point has seen there.
@@ -26990,6 +26994,8 @@ struct rigid_motion {
 /// @file
 /// The pose of points on a surface with its covariance: the result of `align_to_surface`, and its
 /// options.
+///
+/// In no umbrella: include it by name.
 
 namespace gnomon {
 
@@ -27020,9 +27026,10 @@ struct alignment_options {
                 "align_to_surface: max_distance must be positive and finite");
         require(last_distance > 0.0 && last_distance <= max_distance,
                 "align_to_surface: last_distance must be positive, at most max_distance");
-        for (const angle a : {normal_noise, max_angle})
-            require(a >= degrees(0.0) && a <= degrees(90.0),
-                    "align_to_surface: an angle must be from 0 to 90 degrees");
+        const auto is_acute = [](angle a) { return a >= degrees(0.0) && a <= degrees(90.0); };
+        require(is_acute(normal_noise),
+                "align_to_surface: normal_noise must be from 0 to 90 degrees");
+        require(is_acute(max_angle), "align_to_surface: max_angle must be from 0 to 90 degrees");
         require(max_iterations > 0, "align_to_surface: requires an iteration");
     }
 };
@@ -27062,7 +27069,8 @@ struct alignment {
     double rms = 0.0;            ///< root mean square distance of inliers from the surface [m]
     int iterations = 0;          ///< on all points
 
-    /// Whether all that was free to move is known.
+    /// Whether all that was free to move is known. From a start that is far off, it may be the pose
+    /// of a wrong minimum: see align_to_surface().
     [[nodiscard]] bool is_usable() const { return status == outcome::converged; }
 
     /// The same alignment seen from the other side: `pose` is that of the surface in the frame of
@@ -27413,10 +27421,10 @@ class matched_surface {
         match.of_point = p.variance * c * c;
         match.of_sample = 0.0;
         if (!options_.surface_noise.is_zero()) {
-            const Eigen::Vector3d way = difference(q, samples_.viewpoints[match.sample]);
-            const double s = samples_.viewpoints.empty() || !has_length(way)
-                                 ? 1.0
-                                 : dot(mean, direction_of(way));
+            const Eigen::Vector3d v = samples_.viewpoints[match.sample];
+            const bool is_seen = !samples_.viewpoints.empty() && is_finite(v);
+            const Eigen::Vector3d way = is_seen ? difference(q, v) : q;
+            const double s = is_seen && has_length(way) ? dot(mean, direction_of(way)) : 1.0;
             match.of_sample = options_.surface_noise.variance_along(way) * s * s;
         }
         match.variance = p.variance * std::max(c * c, oblique * oblique) + match.of_sample;
@@ -27881,16 +27889,25 @@ template <class R, class S, class Normals, execution X, class Proj>
 /// Aligns points to a surface, to register scans or to fit a model to what a sensor sees of it:
 ///
 ///     const gnomon::spatial_index map(first_scan);
-///     const auto surface = gnomon::estimate_normals(map);
+///     auto surface = gnomon::estimate_normals(map);
+///     gnomon::orient_normals(first_scan, surface);
 ///     const auto found = gnomon::align_to_surface(second_scan, map, surface, start,
 ///                                                 {.noise = noise, .surface_noise = noise});
-///     if (found.is_usable()) use(found.pose, found.covariance);
+///     if (found.is_usable() && 2 * found.inliers > found.points)
+///         use(found.pose, found.covariance);
+///
+/// It is local: a start that is too far off ends at another pose, whose covariance is as small.
+/// From 20 cm and 5 degrees off, all of 8 scans of rooms were registered with a `max_distance` of
+/// 30 cm; from 30 cm and 10 degrees 6 of 8 with 60 cm, and none with the default. There 64 % of the
+/// points and more were inliers; at wrong poses mostly less than a third, but up to 69 %.
 ///
 /// Iterative closest points with the distance from the tangent plane (Chen and Medioni 1992), by
 /// Gauss and Newton's method. Residuals count in deviations of their noise with Tukey's biweight
 /// (Holland and Welsch 1977), whose scale is that of their median until it is that of the noise.
 /// The normal of the surface at a point is interpolated between the samples next to it. Large
 /// clouds are first aligned by a sample of them.
+///
+/// In no umbrella: include it by name.
 
 namespace gnomon {
 
