@@ -34,7 +34,8 @@ STEPS = {
     "second growth, by twice the angle": {"texts": [
         ("gnomon/segmentation/segment_planes.hpp", "    regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle\n", "")]},
     "cutting of regions at edges": {"texts": [
-        ("gnomon/segmentation/detail/plane_regions.hpp", "if (!cuts[r]) continue;", "continue;")]},
+        ("gnomon/segmentation/detail/plane_regions.hpp",
+         "    void cut_edges(const X& run) {\n", "    void cut_edges(const X& run) {\n        return;\n")]},
     "cutting of regions at creases": {"texts": [
         ("gnomon/segmentation/segment_planes.hpp",
          "    if (noise_is_independent) regions.cut_creases(run);\n", "")]},
@@ -47,8 +48,8 @@ STEPS = {
          "bool merge(scratch<region_pair> pairs) { pairs.clear();")]},
     "competition of planes for cells": {"texts": [
         ("gnomon/segmentation/detail/plane_regions.hpp",
-         "for (int round = 0; round < most_rounds; ++round) {\n            auto after",
-         "for (int round = 0; false; ++round) {\n            auto after")]},
+         "for (int round = 0; round < most_rounds; ++round) {\n            region_edges<> edges;",
+         "for (int round = 0; false; ++round) {\n            region_edges<> edges;")]},
     "weights of cells by their points": {"texts": [
         ("gnomon/perception/detail/cell_surfaces.hpp", "        cloud_->counts = cells_.counts;\n", "")]},
     "competition of planes for points": {"texts": [
