@@ -116,6 +116,7 @@ void write_model(const std::string& path, const object_recognizer<Features, Rela
     auto learned = model.learned();
     for (double& x : learned.samples.values) x = detail::with_few_digits(x);
     detail::write_fields(file, learned);
+    // The checks of read_model(), which would otherwise refuse what is written.
     Features features = model.descriptor().features;
     Relations relations = model.descriptor().relations;
     const detail::json_place place(path, file);

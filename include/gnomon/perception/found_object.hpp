@@ -49,8 +49,7 @@ struct find_objects_options {
                                 "find_objects: min_probability must be from 0 to 1");
         require_hesse({up, 0.0}, "find_objects: up must be of unit length");
         if (ground)
-            require_hesse(*ground,
-                          "find_objects: ground needs a normal of unit length and an offset");
+            require_hesse(*ground, "find_objects: ground needs a unit normal and a finite offset");
         silhouette_options{.divergence = divergence}.require_valid();
     }
 };

@@ -17,6 +17,7 @@
 #include <boost/hana/tuple.hpp>
 
 #include <gnomon/adapters/detail/json_fields.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/recognition/cluster.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>

@@ -93,8 +93,8 @@ class ground_motions {
     /// Leaves out turns: a surface of revolution is the same after any turn about its axis, and has
     /// any heading. Shifts are as certain as they are at one heading.
     void hold_turn(Eigen::Matrix3d& c, const vertical_symmetry& symmetry) {
-        constexpr double any_heading =
-            std::numbers::pi * std::numbers::pi / 3.0;  // formula: [rad^2]
+        using std::numbers::pi;
+        constexpr double any_heading = pi * pi / 3.0;  // [rad^2]; formula: of a uniform one
         turn_variance_ = std::min(c(0, 0), any_heading * half_ * half_);
         if (c(0, 0) > 0.0) {
             const Eigen::Vector3d with_turn = c.col(0);
